@@ -115,14 +115,17 @@ void flattenInto(const std::vector<Parameter>& declared, const std::string& pref
   }
 }
 
-/// Sets defaults by path; those of parameters that `values` does not name stay.
+/// Sets defaults by path; those of parameters that `values` does not name stay, and those of alternatives
+/// that it does not choose: one path may be a parameter of several.
 void setDefaults(std::vector<Parameter>& declared, const std::string& prefix,
                  const std::map<std::string, ParameterValue>& values) {
   for (Parameter& parameter : declared) {
     const std::string path = joinPath(prefix, parameter.name);
     const auto value = values.find(path);
     if (value != values.end() && !parameter.preset) parameter.defaultValue = value->second;
-    for (Alternative& alternative : parameter.alternatives) setDefaults(alternative.parameters, path, values);
+    for (Alternative& alternative : parameter.alternatives)
+      if (value == values.end() || value->second == ParameterValue(alternative.name))
+        setDefaults(alternative.parameters, path, values);
   }
 }
 

@@ -61,7 +61,7 @@ void errorMapChooser(const PaneContext& pane, const EvaluationResult& evaluated)
 void predictionControls(const PaneContext& pane) {
   int overlay = static_cast<int>(pane.state.overlay);
   ImGui::SetNextItemWidth(-1.0F);
-  if (ImGui::Combo("##overlay", &overlay, "no prediction\0threshold map\0popping\0")) {
+  if (ImGui::Combo("##overlay", &overlay, "no prediction\0thresholds\0single threshold map\0popping\0")) {
     const auto wanted = static_cast<Overlay>(overlay);
     pane.commands.push(command::Predict{wanted});
     pane.commands.push(command::Arrange{wanted == Overlay::None ? Arrangement::First : Arrangement::Overlay});
@@ -69,10 +69,12 @@ void predictionControls(const PaneContext& pane) {
   pane.controls.note("overlay");
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "what a person would see, predicted for the display below:\nthreshold map: luminance increments at "
-        "threshold by the single map of Schwarz 2009 (not safe: no frequency bands)\npopping: what is "
-        "noticed when the first picture replaces the second (or the "
-        "reference)");
+        "what a person would see, predicted for the display below:\nthresholds: luminance differences that "
+        "are not seen, whatever their frequencies\nsingle threshold map: as in Schwarz 2009, section 9.4, "
+        "one "
+        "threshold for all frequencies; differences below it may be visible\npopping: what is noticed when "
+        "the "
+        "first picture replaces the second (or the reference)");
   if (const auto name = nameChooser("display", perception::displayPresets(), pane.state.displayName,
                                     &perception::displayPresetReason, pane.controls))
     pane.commands.push(command::ChooseDisplay{*name});

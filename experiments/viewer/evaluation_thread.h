@@ -28,9 +28,15 @@ namespace limen::viewer {
 /// What a person would see, painted over the picture.
 enum class Overlay {
   None,
-  Thresholds,  ///< luminance increments that stay invisible, of the first picture
-  Popping      ///< what is noticed when the second picture, or the reference, is replaced by the first
+  Thresholds,        ///< luminance increments that the predictor does not see, of the first picture
+  SingleThresholds,  ///< the single threshold map of Schwarz 2009, section 9.4, for comparison
+  Popping            ///< what is noticed when the second picture, or the reference, is replaced by the first
 };
+
+/// Whether an overlay shows thresholds in cd/m2, of either kind.
+constexpr bool isThresholds(Overlay overlay) {
+  return overlay == Overlay::Thresholds || overlay == Overlay::SingleThresholds;
+}
 
 /// Settled products whose error, and its visibility, are wanted.
 struct EvaluationRequest {

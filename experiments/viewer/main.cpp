@@ -63,6 +63,7 @@ InitialView initialView(const std::string& name) {
       {"flicker", {Arrangement::Flicker, Overlay::None}},
       {"error", {Arrangement::ErrorMap, Overlay::None}},
       {"thresholds", {Arrangement::Overlay, Overlay::Thresholds}},
+      {"single_thresholds", {Arrangement::Overlay, Overlay::SingleThresholds}},
       {"popping", {Arrangement::Overlay, Overlay::Popping}}};
   std::vector<std::string> names;
   for (const auto& [known, shown] : all) {

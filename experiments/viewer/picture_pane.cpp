@@ -167,7 +167,7 @@ std::optional<ColourScale> PicturePane::scaleOf(const ViewerState& state) const 
     return errorScaleOf(wordsOf(state.errorMap), map.white, map.largest);
   }
   if (state.arrangement == Arrangement::Overlay)
-    return state.overlay == Overlay::Thresholds ? std::optional(thresholdScale()) : std::nullopt;
+    return isThresholds(state.overlay) ? std::optional(thresholdScale()) : std::nullopt;
   const Rendered* first = state.rendered(0);
   if (!first || state.arrangement == Arrangement::Second) return {};
   if (first->viewWhite > 0.0) return errorScaleOf(wordsOf(state.debugView), first->viewWhite, 0.0);

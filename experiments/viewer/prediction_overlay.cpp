@@ -11,6 +11,7 @@
 #include "perception/popping/overlay.h"
 #include "perception/popping/predictor.h"
 #include "perception/threshold_maps/reference.h"
+#include "perception/thresholds/thresholds.h"
 
 namespace limen::viewer {
 namespace {
@@ -22,10 +23,12 @@ Image lightOf(Image coded, const perception::DisplayProfile& display) {
 }
 
 void paintThresholds(const Image& picture, const EvaluationRequest& request, EvaluationResult& result) {
-  const perception::ThresholdMap map = perception::computeThresholdMap(
-      perception::luminancePlane(lightOf(picture, request.display), request.display),
-      request.display.pixelsPerDegree(), {});
-  const Image thresholds = perception::toImage(map.thresholdCdM2);
+  perception::ThresholdSettings settings;
+  if (request.overlay == Overlay::SingleThresholds) settings = perception::ThresholdMapSettings{};
+  const perception::Thresholds made = perception::computeThresholds(
+      perception::luminancePlane(lightOf(picture, request.display), request.display), request.display,
+      settings);
+  const Image thresholds = perception::toImage(made.thresholdCdM2);
   result.overlay = std::make_shared<ScreenPicture>(screenPicture(perception::thresholdPicture(thresholds)));
   const auto [least, most] = std::minmax_element(thresholds.data.begin(), thresholds.data.end());
   result.overlayNote =
@@ -68,7 +71,7 @@ void paintOverlay(const EvaluationRequest& request, EvaluationResult& result) {
       return experiments::productPicture(request.kind, product, request.view->shading);
     };
     const Image picture = pictureOf(*request.product);
-    if (request.overlay == Overlay::Thresholds) {
+    if (isThresholds(request.overlay)) {
       paintThresholds(picture, request, result);
       return;
     }

@@ -58,10 +58,10 @@ void checkSettings(const BandThresholdSettings& settings) {
   const PoppingSettings& predictor = settings.predictor;
   if (predictor.bands.upsampler() != Upsampler::Expand)
     throw Error("levels are upsampled with the kernel on the GPU", "predictor.bands.decomposition.upsampler",
-                "use expand, or the technique perception/band_thresholds_reference");
+                "use expand, or the technique perception/threshold_map_reference");
   if (std::holds_alternative<MeanAdaptation>(predictor.adaptation))
     throw Error("adaptation to the mean is not computed on the GPU", "predictor.adaptation",
-                "use local or fixed, or the technique perception/band_thresholds_reference");
+                "use local or fixed, or the technique perception/threshold_map_reference");
 }
 
 }  // namespace
@@ -132,7 +132,8 @@ void BandThresholdGpu::keepBands() {
   other_ = &thresholdProgram(true);
 }
 
-const gl::Texture& BandThresholdGpu::run(const gl::Texture& input, gl::PassList* passes) {
+const gl::Texture& BandThresholdGpu::run(const gl::Texture& input, gl::PassList* passes,
+                                         const std::optional<MapArea>& only) {
   assert(input.sizePx() == sizePx_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   const auto timed = [&](const char* name, const auto& work) {
@@ -141,7 +142,7 @@ const gl::Texture& BandThresholdGpu::run(const gl::Texture& input, gl::PassList*
     work();
   };
   if (bands_ == 0) {
-    timed("band_thresholds/evaluate", [&] {
+    timed(kThresholdEvaluationPass, [&] {
       input.bindTexture(kBandReduceSourceUnit);
       map_.bindImage(kBandCombinedImage, Access::Write);
       uniform_->set("light", light_);
@@ -153,8 +154,8 @@ const gl::Texture& BandThresholdGpu::run(const gl::Texture& input, gl::PassList*
       uniform_->dispatch(sizePx_, kReduceGroup);
     });
   } else {
-    timed("band_thresholds/levels", [&] { reduce(input); });
-    timed("band_thresholds/evaluate", [&] { evaluate(); });
+    timed(kThresholdLevelsPass, [&] { reduce(input); });
+    timed(kThresholdEvaluationPass, [&] { evaluate(only.value_or(MapArea{glm::ivec2(0), sizePx_})); });
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -179,7 +180,14 @@ void BandThresholdGpu::reduce(const gl::Texture& input) {
   }
 }
 
-void BandThresholdGpu::evaluate() {
+void BandThresholdGpu::evaluate(const MapArea& area) {
+  // Each band reads samples of the next coarser one up to the one after its own, which reads on: the last is
+  // at most two beyond the area's.
+  const auto needed = [&](int band) {
+    const glm::ivec2 size = glm::max(sizePx_ >> band, glm::ivec2(1));
+    return MapArea{glm::min(area.low >> band, size - 1),
+                   glm::min(((area.high - 1) >> band) + (band > 0 ? 3 : 1), size)};
+  };
   levels_->bindTexture(kBandLevelsUnit);
   if (coarser_) coarser_->bindTexture(kBandCoarserUnit);
   sensitivities_->bindStorage(kBandSensitivitiesBuffer);
@@ -200,14 +208,17 @@ void BandThresholdGpu::evaluate() {
     program.set("gain", gains_[static_cast<size_t>(band)]);
     program.set("spread", spreads_[static_cast<size_t>(band)]);
     program.set("fixedLuminance", fixedLuminance_);
-    program.dispatch({std::max(sizePx_.x >> band, 1), std::max(sizePx_.y >> band, 1)}, kTile);
+    const MapArea samples = needed(band);
+    program.set("origin", samples.low);
+    program.dispatch(samples.high - samples.low, kTile);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
   if (!shownBand_) return;
   own_->bindTexture(kBandEnlargeSourceUnit);
   map_.bindImage(kBandEnlargeImage, Access::Write);
   enlarge_->set("level", *shownBand_);
-  enlarge_->dispatch(sizePx_, kReduceGroup);
+  enlarge_->set("origin", area.low);
+  enlarge_->dispatch(glm::min(area.high, sizePx_) - area.low, kReduceGroup);
 }
 
 std::map<std::string, const gl::Texture*> BandThresholdGpu::debugViews() const {

@@ -6,9 +6,10 @@ layout(local_size_x = kBandReduceX, local_size_y = kBandReduceY) in;
 layout(binding = kBandEnlargeSourceUnit) uniform sampler2D source;
 layout(binding = kBandEnlargeImage, r32f) uniform writeonly image2D enlarged;
 uniform int level;
+uniform ivec2 origin;
 
 void main() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 at = origin + ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(enlarged)))) return;
   ivec2 last = textureSize(source, level) - 1, first = at >> level;
   vec2 t = vec2(at - (first << level)) / float(1 << level);

@@ -21,7 +21,7 @@ const SettingsTable<BandThresholdSettings>& BandThresholdSettings::table() {
        {0, kMostReach},
        "samples",
        "samples of a level, on each side, over which the smallest threshold counts in the combined map"},
-      {&S::output, "output", "thresholds of the map"}};
+      Binding(&S::output, "output", "thresholds of the map").formerly({"map"})};
   return kTable;
 }
 
@@ -29,12 +29,13 @@ void BandThresholdSettings::check() const {
   if (predictor.bands.isStack())
     throw Error("thresholds by band are those of a pyramid, not of a stack", "predictor.bands.decomposition",
                 "use pyramid");
-  if (predictor.bands.isFitted())
-    throw Error("thresholds by band invert one weight per band, not fitted weights of its parts",
-                "predictor.bands.weights", "use peak");
   if (std::holds_alternative<ExtendedMasking>(predictor.neighbourhood))
     throw Error("thresholds by band invert point-wise masking, not masking by neighbours",
                 "predictor.neighbourhood", "use none");
+  // Three parts of a band have contrasts and responses of their own; one response is inverted here.
+  if (predictor.bands.isFitted())
+    throw Error("thresholds by band invert one weight per band, not the three of fitted weights",
+                "predictor.bands.weights", "use peak");
 }
 
 void BandThresholdSettings::checkBand(int bands) const {

@@ -24,6 +24,10 @@ struct BandOutput {
 
 /// Settings of thresholds by frequency band, which invert the popping predictor.
 struct BandThresholdSettings {
+  static constexpr const char *kKind = "bands",
+                              *kSummary =
+                                  "the popping predictor inverted in each frequency band: what stays below "
+                                  "it is not seen";
   /// The predictor whose responses must not change visibly. Its model over time, weights, regions and ratings
   /// are not used: pictures last and the eye fixates.
   PoppingSettings predictor;

@@ -15,6 +15,7 @@ layout(binding = kBandOwnImage, r32f) uniform writeonly image2D own;
 layout(std430, binding = kBandSensitivitiesBuffer) readonly buffer Sensitivities { vec2 sensitivities[]; };
 layout(std430, binding = kBandStepsBuffer) readonly buffer Steps { vec2 steps[]; };
 uniform int level, adaptationLevel, coarserLevel;
+uniform ivec2 origin;  // the first sample to compute; even or odd
 uniform vec2 evenTaps;  // of the upsampler: outer and centre weight at even samples; odd ones have 1/2, 1/2
 uniform float epsilon, gain, spread, fixedLuminance;
 
@@ -97,7 +98,7 @@ vec2 thresholdsAt(ivec2 place, ivec2 nextFrom) {
 
 void main() {
   int thread = int(gl_LocalInvocationIndex);
-  ivec2 size = textureSize(levels, level), tile = ivec2(gl_WorkGroupID.xy) * kTile;
+  ivec2 size = textureSize(levels, level), tile = origin + ivec2(gl_WorkGroupID.xy) * kTile;
   ivec2 from = tile - REACH, nextFrom = (from >> 1) - 1;
   loadNext(thread, nextFrom);
   barrier();

@@ -100,12 +100,6 @@ Kelly83Scale Kelly83Scale::of(const ChosenEntry& csf) {
   return csf.values.all().empty() ? Kelly83Scale{} : table().read(csf.values);
 }
 
-const SettingsTable<FixedArea>& FixedArea::table() {
-  static const SettingsTable<FixedArea> kTable = {
-      {&FixedArea::deg2, "deg2", {1e-6, 1e5}, "deg2", "the area", kModel}};
-  return kTable;
-}
-
 const SettingsTable<SensitivitySettings>& SensitivitySettings::table() {
   using S = SensitivitySettings;
   static const SettingsTable<S> kTable = {

@@ -11,18 +11,11 @@
 #include "perception/popping/temporal_settings.h"
 #include "perception/popping/weight_settings.h"
 #include "perception/vision/eye_movement.h"
+#include "perception/vision/predictor_model.h"
+#include "perception/vision/stimulus_area.h"
 
 /// Settings of the popping predictor. Schwarz 2009, sections 10.3.3 and 10.3.4.
 namespace limen::perception {
-
-/// Complete choices of settings. The name sets the defaults of all others; see PoppingSettings::preset().
-enum class PredictorModel {
-  Limen2026,    ///< castleCSF in absolute units
-  Schwarz2009,  ///< the thesis's choices
-};
-constexpr EnumNames<PredictorModel, 2> enumNames(PredictorModel) {
-  return {{{{PredictorModel::Limen2026, "limen_2026"}, {PredictorModel::Schwarz2009, "schwarz_2009"}}}};
-}
 
 // Scale of a channel's sensitivity.
 struct AbsoluteScale {
@@ -63,15 +56,6 @@ struct Kelly83Scale {
   static const SettingsTable<Kelly83Scale>& table();
   /// Those of a CSF chosen for a chromatic channel.
   static Kelly83Scale of(const ChosenEntry& csf);
-};
-
-struct ImageArea {
-  static constexpr const char *kKind = "image", *kSummary = "that of the images on the display";
-};
-struct FixedArea {
-  static constexpr const char *kKind = "fixed", *kSummary = "a given one";
-  double deg2 = 7.07;
-  static const SettingsTable<FixedArea>& table();
 };
 
 // What contrasts are taken of.

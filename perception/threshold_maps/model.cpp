@@ -85,7 +85,8 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
   if (!(pixelsPerDegree > 0.0) || !std::isfinite(pixelsPerDegree))
     throw Error("pixels per degree must be a positive number", "display");
   point_.widthDeg = widthPx / pixelsPerDegree;
-  point_.areaDeg2 = point_.widthDeg * heightPx / pixelsPerDegree;
+  const auto* fixedArea = std::get_if<FixedArea>(&settings.stimulusArea);
+  point_.areaDeg2 = fixedArea ? fixedArea->deg2 : point_.widthDeg * heightPx / pixelsPerDegree;
   adaptation_ = adaptationBlend(settings, pixelsPerDegree, levels_);
   const int bands = std::max(levels_ - 2, 0);
   const PyramidSettings pyramid = settings.pyramid();
@@ -100,10 +101,17 @@ ThresholdModel::ThresholdModel(const Settings& settings, double pixelsPerDegree,
     lnPeaks_.resize(kNodes);
     forRowBlocks(kNodes, 100000, [&](int first, int end) {
       for (int i = first; i < end; ++i)
-        lnPeaks_[static_cast<size_t>(i)] = std::log(std::max(
-            csf_->peak(at(-1, std::pow(10.0, kLgLow + static_cast<double>(i) / kNodesPerDecade))).sensitivity,
-            1.0 / kLargestElevation));
+        lnPeaks_[static_cast<size_t>(i)] =
+            std::log(searchedPeak(std::pow(10.0, kLgLow + static_cast<double>(i) / kNodesPerDecade)));
     });
+    // A cubic is off by 3/128 of the fourth difference at most, which is that small where the peak is smooth.
+    constexpr double kLargestDifference = 4e-6;
+    searched_.assign(kNodes, 0);
+    for (int i = 2; i + 2 < kNodes; ++i) {
+      const double* p = &lnPeaks_[static_cast<size_t>(i)];
+      if (std::abs(p[-2] - 4.0 * p[-1] + 6.0 * p[0] - 4.0 * p[1] + p[2]) < kLargestDifference) continue;
+      for (int cell = i - 2; cell <= i + 1; ++cell) searched_[static_cast<size_t>(cell)] = 1;
+    }
   }
   if (const auto* original = std::get_if<OriginalElevation>(&settings.frequencyElevation))
     for (int band = 0; band < bands; ++band)
@@ -125,11 +133,16 @@ CsfPoint ThresholdModel::at(int band, double luminanceCdM2) const {
   return point;
 }
 
+double ThresholdModel::searchedPeak(double luminanceCdM2) const {
+  return std::max(csf_->peak(at(-1, luminanceCdM2)).sensitivity, 1.0 / kLargestElevation);
+}
+
 double ThresholdModel::peakSensitivity(double luminanceCdM2) const {
   if (lnPeaks_.empty()) return 0.0;
   const double lg = std::log10(held(luminanceCdM2));
   const double position = (std::clamp(lg, kLgLow, kLgHigh) - kLgLow) * kNodesPerDecade;
   const int i = std::min(static_cast<int>(position), kNodes - 2);
+  if (searched_[static_cast<size_t>(i)]) return searchedPeak(luminanceCdM2);
   const double t = position - i;
   const auto p = [&](int k) { return lnPeaks_[static_cast<size_t>(std::clamp(k, 0, kNodes - 1))]; };
   // Through four nodes (Lagrange); at the ends the outer node repeats and the middle two still hold.

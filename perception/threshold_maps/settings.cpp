@@ -15,6 +15,9 @@ std::vector<std::string> achromaticCsfs() {
   return {"barten89", "barten89_size",   "barten03", "martin92", "daly93",   "kelly79",
           "daly98",   "burbeck_kelly80", "laird06",  "stelacsf", "castlecsf"};
 }
+std::map<std::string, ParameterValue> presetValues(const std::string& choice) {
+  return ThresholdMapSettings::table().write(ThresholdMapSettings::preset(fromText<PredictorModel>(choice)));
+}
 std::vector<std::string> maskings() { return {"none", "daly", "lubin", "self", "schwarz"}; }
 
 }  // namespace
@@ -91,6 +94,11 @@ const SettingsTable<SmoothFlat>& SmoothFlat::table() {
 const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
   using S = ThresholdMapSettings;
   static const SettingsTable<S> kTable = {
+      Binding(&S::model, "model",
+              "sets the defaults of all other settings: castleCSF, or the thesis's choices",
+              "Ashraf et al. 2024; Schwarz 2009, section 9.4")
+          .presets(&presetValues)
+          .formerly({"map"}),
       {&S::levels, "levels", {3, 9}, "", "levels of the Gaussian pyramid; two fewer contrast levels", kMap},
       {&S::decomposition, "decomposition", "source of the frequency bands", kMap},
       Binding(&S::downsample, "downsample",
@@ -103,6 +111,7 @@ const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
        "Schwarz 2009, section 10.3"},
       {&S::adaptation, "adaptation", "adaptation luminance", kMap},
       {&S::csf, "csf", Names{achromaticCsfs()}, "contrast sensitivity function", kOriginal},
+      {&S::stimulusArea, "stimulus_area", "area of the stimulus in sensitivities that depend on it"},
       {&S::masking, "masking", Names{maskings()}, "threshold elevation by contrast; none switches it off",
        kOriginal},
       {&S::tvi, "tvi", Names{tviNames()}, "threshold versus intensity", kOriginal},
@@ -127,6 +136,15 @@ const SettingsTable<ThresholdMapSettings>& ThresholdMapSettings::table() {
        "cd/m2",
        "brighter pixels count as this; above 6e4 16-bit results overflow"}};
   return kTable;
+}
+
+ThresholdMapSettings ThresholdMapSettings::preset(PredictorModel model) {
+  ThresholdMapSettings out;
+  out.model = model;
+  if (model == PredictorModel::Limen2026) return out;
+  out.csf = "barten89";
+  out.stimulusArea = ImageArea{};
+  return out;
 }
 
 Kernel ThresholdMapSettings::kernel() const {
@@ -160,7 +178,8 @@ const SettingsTable<GivenLevels>& GivenLevels::table() {
 const SettingsTable<ThresholdMapGpuSettings>& ThresholdMapGpuSettings::table() {
   using S = ThresholdMapGpuSettings;
   static const SettingsTable<S> kTable = {
-      {&S::precision, "precision", oneOf({16, 32}), "bit", "bits of intermediate results", kMap},
+      Binding(&S::precision, "precision", oneOf({16, 32}), "bit", "bits of intermediate results", kMap)
+          .formerly({"gpu"}),
       {&S::lookup, "lookup",
        "CSF and TVI from tables over luminance, or computed for every pixel (barten89 and ward only)", kMap},
       {&S::levelsPerPass, "levels_per_pass",

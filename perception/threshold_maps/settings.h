@@ -6,6 +6,8 @@
 
 #include "experiments/base/settings_table.h"
 #include "perception/multiscale/band_peaks.h"
+#include "perception/vision/predictor_model.h"
+#include "perception/vision/stimulus_area.h"
 
 /// Settings of the single threshold map: for each pixel of one image a luminance increment at threshold, the
 /// same for all frequencies. Kept as published, for comparison; thresholds that hold by the predictor are
@@ -132,6 +134,11 @@ struct ExactFlat {
 
 /// The model, shared by reference and GPU.
 struct ThresholdMapSettings {
+  static constexpr const char *kKind = "single",
+                              *kSummary =
+                                  "one threshold for all frequencies; differences below it may be visible";
+  /// Names the choices made in all other members.
+  PredictorModel model = PredictorModel::Limen2026;
   int levels = 7;
   std::variant<UpsampledStack, SampledPyramid, TrueStack, RepeatedStack> decomposition;
   std::variant<BinomialKernel, NineFetchKernel, BurtKernel> downsample;
@@ -141,13 +148,17 @@ struct ThresholdMapSettings {
   std::variant<OneDegreeAdaptation, NearestLevelAdaptation, FractionalLevelAdaptation, GivenLevelAdaptation,
                MistakenDegreeAdaptation>
       adaptation;
-  std::string csf = "barten89", masking = "daly", tvi = "ward";
+  std::string csf = "castlecsf", masking = "daly", tvi = "ward";
+  /// Of CSFs that depend on it.
+  std::variant<FixedArea, ImageArea> stimulusArea;
   std::variant<ActualElevation, OriginalElevation, NoFrequencyElevation> frequencyElevation;
   double tviFactor = 0.2;
   std::variant<SmoothFlat, ExactFlat> flat;
   double contrastEpsilonCdM2 = 1e-4;
   double largestCdM2 = 6e4;
   static const SettingsTable<ThresholdMapSettings>& table();
+  /// The settings that a model stands for. Limen2026: those of ThresholdMapSettings{}.
+  static ThresholdMapSettings preset(PredictorModel model);
 
   /// Five taps and how they are applied.
   Kernel kernel() const;

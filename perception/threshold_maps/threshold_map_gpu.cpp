@@ -53,7 +53,8 @@ void checkSettings(const Settings& settings, const ThresholdMapGpuSettings& gpu)
   refuse(settings.expands(), "levels are upsampled bilinearly on the GPU", "decomposition.upsampler",
          "use bilinear, or the technique perception/threshold_map_reference");
   refuse(gpu.direct() && (settings.csf != "barten89" || settings.tvi != "ward"),
-         "only csf: barten89 and tvi: ward are computed directly", "lookup", "use lookup: tables");
+         "only csf: barten89 and tvi: ward are computed directly", "lookup",
+         "use lookup: tables, or model: schwarz_2009");
   refuse(settings.nineFetch() && settings.border != Border::Clamp,
          "bilinear fetches do not support a mirrored border", "border",
          "use border: clamp or downsample: binomial");
@@ -231,9 +232,9 @@ const gl::Texture& ThresholdMapGpu::run(const gl::Texture& input, gl::PassList* 
     const gl::PassList::Scope scope = passes->open(name);
     work();
   };
-  timed("threshold_map/levels",
+  timed(kThresholdLevelsPass,
         [&] { settings_.nineFetch() || levels_ == 1 ? reduceNineFetch(input) : reduce(input); });
-  timed("threshold_map/evaluate", [&] { evaluate(only.value_or(MapArea{glm::ivec2(0), sizePx_})); });
+  timed(kThresholdEvaluationPass, [&] { evaluate(only.value_or(MapArea{glm::ivec2(0), sizePx_})); });
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_TEXTURE_UPDATE_BARRIER_BIT);
   return threshold_;

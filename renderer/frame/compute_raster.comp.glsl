@@ -3,7 +3,8 @@
 // Without LARGE: SMALL_LANES invocations a triangle, which share its pixels if its bounding box has at most SMALL_PIXELS; all
 // others are queued in bands of rows. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
 // triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
-// triangles; see sample_raster.h.
+// triangles; see sample_raster.h. MARKED: of pixels that are listed already. KEEP: lists the small triangles that reach into
+// marked tiles and queues the others; KEPT: these small triangles alone.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/raster_regions.h"
 #include "renderer/frame/raster_triangle.glsl"
@@ -20,7 +21,8 @@ RasterRegion region = RasterRegion(ivec2(0), ivec2(0), 0, 0, 0, 0);  // of the t
 #endif
 
 // A buffer, not an image: its atomics without a result cost no waiting.
-#ifdef IDS
+#ifdef KEEP
+#elif defined(IDS)
 layout(std430, binding = kRasterDepthsBuffer) readonly buffer Depths { uint depths[]; };
 layout(std430, binding = kRasterIdsBuffer) buffer Ids { uint ids[]; };
 #else
@@ -40,7 +42,19 @@ uniform float peelBias;
 layout(binding = kSampleRasterCentreIdsUnit) uniform usampler2D centreIds;
 layout(binding = kSampleRasterReachUnit) uniform sampler2D reach;
 layout(binding = kSampleRasterMarksImage, r32ui) uniform coherent uimage2D marks;  // 1: the pixel is listed
-#ifndef IDS
+#if defined(KEEP)
+layout(binding = kSampleRasterTilesUnit) uniform usampler2D markedTiles;  // above 0: there are marks
+layout(std430, binding = kSampleRasterKeptBuffer) buffer Kept {
+  SampleListHeader kept;
+  uint keptTriangles[];
+};
+#elif defined(KEPT)
+layout(std430, binding = kSampleRasterKeptTrianglesBuffer) readonly buffer Kept {
+  SampleListHeader kept;
+  uint keptTriangles[];
+};
+#endif
+#if !defined(IDS) && !defined(MARKED)
 layout(std430, binding = kSampleRasterListBuffer) buffer List {
   SampleListHeader list;
   uint listed[];  // pixels, by row
@@ -59,7 +73,9 @@ uniform int rangeCount;      // 0: the triangles from 0 on
 #ifdef REGIONS
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec4 ranges[]; };  // z: region
 #else
+#ifndef KEPT
 layout(std430, binding = kRasterRangesBuffer) readonly buffer Ranges { uvec2 ranges[]; };
+#endif
 #endif
 
 // Pixels that a triangle may write, the last included, and where a pixel's result is.
@@ -162,9 +178,13 @@ bool isNear(Triangle t, ivec2 pixel) {
   return all(greaterThanEqual(products, -t.slack)) || all(lessThanEqual(products, t.slack));
 }
 
+#ifndef KEEP
 void shade(Triangle t, uint index, ivec2 pixel) {
+#ifdef MARKED
+  if (imageLoad(marks, pixel).x == 0u) return;
+#endif
   if (!isNear(t, pixel)) return;
-#ifdef IDS
+#if defined(IDS) && !defined(MARKED)
   if (imageLoad(marks, pixel).x == 0u) return;
 #endif
   // The centre's triangle, where it covers the whole pixel, joins when all is done.
@@ -187,11 +207,12 @@ void shade(Triangle t, uint index, ivec2 pixel) {
     seen = true;
 #endif
   }
-#ifndef IDS
+#if !defined(IDS) && !defined(MARKED)
   if (seen && imageLoad(marks, pixel).x == 0u && imageAtomicExchange(marks, pixel, 1u) == 0u)
     listed[atomicAdd(list.pixels, 1u)] = uint(pixel.y * sizePx.x + pixel.x);
 #endif
 }
+#endif
 #else
 void shade(Triangle t, uint index, ivec2 pixel) {
   float depth;
@@ -251,6 +272,7 @@ ivec2 rowSpan(Triangle t, int row) {
   return clamp(pixels, ivec2(0, -1), ivec2(t.size.x, t.size.x - 1));
 }
 
+#ifndef KEEP
 // Rows [first, end) of the bounding box by one invocation.
 void shadeRows(Triangle t, uint index, int first, int end) {
   for (int y = first; y < end; ++y) {
@@ -258,6 +280,7 @@ void shadeRows(Triangle t, uint index, int first, int end) {
     for (int x = span.x; x <= span.y; ++x) shade(t, index, t.low + ivec2(x, y));
   }
 }
+#endif
 
 #ifdef LARGE
 shared int spanStarts[kMostBandRows], pixelsUpTo[kMostBandRows];
@@ -322,6 +345,11 @@ void main() {
 uint regionIndex = 0u;
 #endif
 
+#ifdef KEPT
+uint chosenTriangle(uint n) { return keptTriangles[n]; }
+uint chosenCount() { return kept.pixels; }
+#else
+uint chosenCount() { return triangleCount; }
 // Number in the scene of the n-th triangle drawn. Finds its region.
 uint chosenTriangle(uint n) {
   if (rangeCount == 0) return n;
@@ -339,16 +367,62 @@ uint chosenTriangle(uint n) {
 #endif
   return ranges[low].x + n - (low > 0 ? ranges[low - 1].y : 0u);
 }
+#endif
+
+#ifdef KEEP
+shared uint groupKept, firstKept;
+
+bool reachesMark(Triangle t) {
+  const ivec2 low = t.low / kGroupSide, high = (t.low + t.size - 1) / kGroupSide;
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x)
+      if (texelFetch(markedTiles, ivec2(x, y), 0).x > 0u) return true;
+  return false;
+}
+
+// Whether the triangle is to be kept: it is small, and reaches a mark, or the queue has no room.
+bool keeps(uint index) {
+  const Triangle t = load(index);
+  const int pixels = t.size.x * t.size.y;
+  if (pixels <= SMALL_PIXELS) return pixels > 0 && reachesMark(t);
+  const int rows = rowsOfBand(t), count = (t.size.y + rows - 1) / rows;
+  const uint slot = atomicAdd(queue.queued, uint(count));
+  for (int band = 0; band < count && slot + uint(band) < QUEUE_CAPACITY; ++band)
+    bands[slot + uint(band)] = uvec2(index, uint(band * rows));
+  return slot + uint(count) > QUEUE_CAPACITY;
+}
 
 void main() {
-  if (gl_GlobalInvocationID.x >= (1u << 20)) return;
-  const uint invocation = gl_GlobalInvocationID.y * (1u << 20) + gl_GlobalInvocationID.x;
+  if (gl_LocalInvocationID.x == 0u) groupKept = 0u;
+  barrier();
+  const uint drawn = gl_GlobalInvocationID.y * kRasterRowInvocations + gl_GlobalInvocationID.x;
+  uint index = 0u;
+  bool isKept = false;
+  if (gl_GlobalInvocationID.x < kRasterRowInvocations && drawn < triangleCount) {
+    index = chosenTriangle(drawn);
+    isKept = keeps(index);
+  }
+  const uint slot = isKept ? atomicAdd(groupKept, 1u) : 0u;
+  barrier();
+  if (gl_LocalInvocationID.x == 0u && groupKept > 0u) firstKept = atomicAdd(kept.pixels, groupKept);
+  barrier();
+  if (isKept) keptTriangles[firstKept + slot] = index;
+}
+#else
+void main() {
+  if (gl_GlobalInvocationID.x >= kRasterRowInvocations) return;
+  const uint invocation = gl_GlobalInvocationID.y * kRasterRowInvocations + gl_GlobalInvocationID.x;
   const uint drawn = invocation / uint(SMALL_LANES), lane = invocation % uint(SMALL_LANES);
-  if (drawn >= triangleCount) return;
+  if (drawn >= chosenCount()) return;
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
-  if (pixels <= SMALL_PIXELS) {
+#ifdef KEPT
+  const bool isLarge = false;
+#else
+  const bool isLarge = pixels > SMALL_PIXELS;
+#endif
+  if (!isLarge) {
     if (pixels == 0) return;
     const ivec2 step = ivec2(SMALL_LANES % t.size.x, SMALL_LANES / t.size.x);
     ivec2 at = ivec2(int(lane) % t.size.x, int(lane) / t.size.x);
@@ -373,4 +447,5 @@ void main() {
       shadeRows(t, index, first, min(first + rows, t.size.y));
   }
 }
+#endif
 #endif

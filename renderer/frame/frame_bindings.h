@@ -75,6 +75,13 @@ const uint kSampleRasterMarksImage = 0u;
 const uint kSampleRasterReachImage = 1u;
 const uint kSampleRasterListBuffer = 7u;
 const uint kSampleRasterSamplesUnit = 3u;  // the driver's
+// Of pixels beside other surfaces: tiles that hold any, and triangles that reach into these. The buffer of
+// triangles stands in for that of ids while it is filled, and for that of ranges while it is read.
+const uint kSampleRasterTilesUnit = 4u;
+const uint kSampleRasterTilesImage = 2u;
+const uint kSampleRasterKeptBuffer = 5u;
+const uint kSampleRasterKeptTrianglesBuffer = 6u;
+const uint kRasterRowInvocations = 1048576u;  // of a dispatch over triangles
 
 // Depth peeling by the rasteriser.
 const uint kPeelPreviousDepthUnit = 0u;

@@ -28,19 +28,22 @@ int levelsAbove(int resolution) {
 
 }  // namespace
 
-MicrorectLevels::MicrorectLevels(gl::Context& context, int resolution, MergeRule rule)
-    : resolution_(resolution),
-      levels_(levelsAbove(resolution)),
+MicrorectLevels::MicrorectLevels(gl::Context& context, const ShadowMapSettings& map, MergeRule rule,
+                                 const MicrorectLevels* first)
+    : resolution_(map.resolution),
+      levels_(levelsAbove(map.resolution)),
       first_(passOf(context, "FIRST_PASS", rule)),
       second_(passOf(context, "SECOND_PASS", rule)),
-      depths_(gl::Format::R32F, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
-      extents_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1)), std::max(levels_, 1)),
-      merged_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution / 2, 1))) {}
+      depths_(gl::Format::R32F, glm::ivec2(std::max(resolution_ / 2, 1)), std::max(levels_, 1), 0, map,
+              first ? &first->depths_ : nullptr),
+      extents_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution_ / 2, 1)), std::max(levels_, 1), 0, map,
+               first ? &first->extents_ : nullptr),
+      merged_(gl::Format::RGBA16UI, glm::ivec2(std::max(resolution_ / 2, 1))) {}
 
 void MicrorectLevels::build(const gl::Texture& minimum) const {
   minimum.bindTexture(kMicrorectMinimumMapUnit);
-  depths_.bindTexture(kMicrorectDepthsUnit);
-  extents_.bindTexture(kMicrorectExtentsUnit);
+  depths().bindTexture(kMicrorectDepthsUnit);
+  extents().bindTexture(kMicrorectExtentsUnit);
   merged_.bindTexture(kMicrorectMergedUnit);
   for (int level = 1; level <= levels_; ++level) {
     const int size = resolution_ >> level;
@@ -50,8 +53,8 @@ void MicrorectLevels::build(const gl::Texture& minimum) const {
       if (program == &first_) {
         merged_.bindImage(kMicrorectMergedImage, gl::Access::Write);
       } else {
-        depths_.bindImage(kMicrorectDepthsImage, gl::Access::Write, level - 1);
-        extents_.bindImage(kMicrorectExtentsImage, gl::Access::Write, level - 1);
+        depths().bindImage(kMicrorectDepthsImage, gl::Access::Write, level - 1);
+        extents().bindImage(kMicrorectExtentsImage, gl::Access::Write, level - 1);
       }
       program->dispatch(glm::ivec2(size));
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -61,7 +64,10 @@ void MicrorectLevels::build(const gl::Texture& minimum) const {
 
 MicrorectMap::MicrorectMap(Frame& frame, MicrorectSettings settings)
     : settings_(settings),
-      levels_(frame.context(), settings.map.resolution, settings.rule),
+      levels_(frame.context(), settings.map, settings.rule,
+              settings.map.first()
+                  ? &frame.get<MicrorectMap>(MicrorectSettings{*settings.map.first(), settings.rule}).levels_
+                  : nullptr),
       pass_("frame/microrect_map") {
   frame.passes().setBytesHeld(pass_, levels_.bytes());
 }

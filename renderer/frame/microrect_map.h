@@ -47,23 +47,27 @@ struct MergeRule {
 /// its two kept neighbours is closer in depth.
 class MicrorectLevels {
  public:
-  /// `resolution` is a power of two.
-  MicrorectLevels(gl::Context& context, int resolution, MergeRule rule);
+  /// The map's resolution is a power of two; `first` as for MapTexture.
+  MicrorectLevels(gl::Context& context, const ShadowMapSettings& map, MergeRule rule,
+                  const MicrorectLevels* first = nullptr);
   /// From level 0 of `minimum`, R32F and of the map's resolution.
   void build(const gl::Texture& minimum) const;
   /// R32F: smallest depth of what a microrect was merged from.
-  const gl::Texture& depths() const { return depths_; }
+  const gl::Texture& depths() const { return depths_.own(); }
   /// RGBA16UI: k_-x, k_-y, k_+x, k_+y in texels of level 0.
-  const gl::Texture& extents() const { return extents_; }
+  const gl::Texture& extents() const { return extents_.own(); }
+  const gl::Texture& sharedDepths() const { return depths_.shared(); }  ///< as for MapTexture
+  const gl::Texture& sharedExtents() const { return extents_.shared(); }
   /// Levels that are stored; the textures of a map of one texel have one that is never written.
   int levels() const { return levels_; }
   /// 12 bytes per microrect, plus 8 for each of level 1 during construction: 6 MiB for a map of 1024 x 1024.
-  int64_t bytes() const { return depths_.bytes() + extents_.bytes() + merged_.bytes(); }
+  int64_t bytes() const { return depths().bytes() + extents().bytes() + merged_.bytes(); }
 
  private:
   int resolution_, levels_;
   const gl::Program &first_, &second_;
-  gl::Texture depths_, extents_, merged_;
+  MapTexture depths_, extents_;
+  gl::Texture merged_;
 };
 
 struct MicrorectSettings {

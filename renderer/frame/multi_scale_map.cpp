@@ -26,9 +26,9 @@ int log2Of(int powerOfTwo) {
   return std::countr_zero(static_cast<unsigned>(powerOfTwo));
 }
 
-gl::Texture allocate(int resolution, int layers) {
+MapTexture allocate(int resolution, int layers, const ShadowMapSettings& map, const MapTexture* first) {
   try {
-    return {gl::Format::RG32F, glm::ivec2(resolution), 1, layers};
+    return {gl::Format::RG32F, glm::ivec2(resolution), 1, layers, map, first};
   } catch (const Error& error) {
     throw Error("the multi-scale layers do not fit: " + error.message(), {},
                 "choose a smaller map, or structure ysm, which needs them only at its base resolution");
@@ -43,17 +43,18 @@ glm::ivec2 sourceOffsets(WindowAnchor anchor, int layer) {
 
 }  // namespace
 
-MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor)
+MultiScaleLayers::MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor,
+                                   const ShadowMapSettings& map, const MultiScaleLayers* first)
     : resolution_(resolution),
       layers_(std::max(log2Of(resolution), 1)),
       anchor_(anchor),
       byLines_(resolution <= kMultiScaleLine),
       first_(layersProgram(context, byLines_, true)),
       next_(layersProgram(context, byLines_, false)),
-      texture_(allocate(resolution, layers_)) {}
+      texture_(allocate(resolution, layers_, map, first ? &first->texture_ : nullptr)) {}
 
 void MultiScaleLayers::build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const {
-  texture_.bindImage(kMultiScaleImage, gl::Access::Write);
+  texture().bindImage(kMultiScaleImage, gl::Access::Write);
   minimum.bindTexture(kMultiScaleMinimumMapUnit);
   maximum.bindTexture(kMultiScaleMaximumMapUnit);
   first_.set("sourceLevel", level);
@@ -75,14 +76,14 @@ void MultiScaleLayers::buildByLines() const {
     else
       program->dispatch({resolution_, layers_}, {kMultiScaleColumns, 1});
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    texture_.bindTexture(kMultiScaleLayersUnit);
+    texture().bindTexture(kMultiScaleLayersUnit);
   }
 }
 
 void MultiScaleLayers::buildByTiles() const {
   for (int layer = 1; layer <= layers_; layer += kMultiScaleLayers) {
     const gl::Program& program = layer == 1 ? first_ : next_;
-    if (layer > 1) texture_.bindTexture(kMultiScaleLayersUnit);
+    if (layer > 1) texture().bindTexture(kMultiScaleLayersUnit);
     // Each layer's offsets are multiples of the first one's.
     const int stride = layer == 1 ? 1 : sourceOffsets(anchor_, layer).y;
     const int made = std::min(kMultiScaleLayers, layers_ + 1 - layer);
@@ -106,7 +107,8 @@ void MultiScaleLayers::buildByTiles() const {
 MultiScaleMap::MultiScaleMap(Frame& frame, MultiScaleSettings settings)
     : settings_(settings),
       baseLevel_(log2Of(settings.map.resolution) - log2Of(settings.base)),
-      layers_(frame.context(), settings.base, settings.anchor),
+      layers_(frame.context(), settings.base, settings.anchor, settings.map,
+              settings.first() ? &frame.get<MultiScaleMap>(*settings.first()).layers_ : nullptr),
       pass_((settings.anchor == WindowAnchor::Corner ? "frame/n_buffer" : "frame/multi_scale_map") +
             settings.map.name()) {
   assert(baseLevel_ >= 0);

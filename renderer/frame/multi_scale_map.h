@@ -19,12 +19,16 @@ enum class WindowAnchor {
 /// maximum).
 class MultiScaleLayers {
  public:
-  /// `resolution` is a power of two. Throws Error if the device has no room for them.
-  MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor);
+  /// `resolution` is a power of two; `map` and `first` as for MapTexture. Throws Error if the device has no
+  /// room for them.
+  MultiScaleLayers(gl::Context& context, int resolution, WindowAnchor anchor,
+                   const ShadowMapSettings& map = {}, const MultiScaleLayers* first = nullptr);
   /// `minimum` and `maximum` are those of a MinMaxPyramid, `level` is its level of this resolution.
   void build(const gl::Texture& minimum, const gl::Texture& maximum, int level) const;
   /// log2(resolution) layers; for a map of one texel, one layer that repeats it.
-  const gl::Texture& texture() const { return texture_; }
+  const gl::Texture& texture() const { return texture_.own(); }
+  /// As for MapTexture: the layers of one map behind those of another.
+  const gl::Texture& shared() const { return texture_.shared(); }
   int layers() const { return layers_; }
 
  private:
@@ -37,7 +41,7 @@ class MultiScaleLayers {
   WindowAnchor anchor_;
   bool byLines_;
   const gl::Program &first_, &next_;
-  gl::Texture texture_;
+  MapTexture texture_;
 };
 
 struct MultiScaleSettings {
@@ -46,6 +50,11 @@ struct MultiScaleSettings {
   /// size, and both together are a hybrid Y shadow map (YSM; Schwarz 2009, section 4.3.2).
   int base = 1024;
   WindowAnchor anchor = WindowAnchor::Centre;
+  /// Those of the first of the maps that are read together; none if this is the first, or the only one.
+  std::optional<MultiScaleSettings> first() const {
+    const auto of = map.first();
+    return of ? std::optional(MultiScaleSettings{*of, base, anchor}) : std::nullopt;
+  }
   std::string key() const {
     return map.key() + "/" + std::to_string(base) + (anchor == WindowAnchor::Corner ? "/corner" : "/centre");
   }
@@ -61,6 +70,8 @@ class MultiScaleMap : public FrameInput {
   MultiScaleMap(Frame& frame, MultiScaleSettings settings);
   void make(Frame& frame) override;
   const gl::Texture& texture() const { return layers_.texture(); }
+  const gl::Texture& shared() const { return layers_.shared(); }
+  int layers() const { return layers_.layers(); }
   /// Level of the pyramid that is layer 0.
   int baseLevel() const { return baseLevel_; }
 

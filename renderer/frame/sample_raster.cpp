@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "renderer/frame/frame_bindings.h"
@@ -28,6 +29,23 @@ const gl::Program& sampleProgram(Frame& frame, const std::string& name, size_t s
   return frame.context().programs().compute("renderer/frame/" + name, defines);
 }
 
+gl::ShaderDefines searchDefines(SampleSearch search, bool small) {
+  if (search == SampleSearch::Triangles) return {};
+  return small ? gl::ShaderDefines{{"MARKED", "1"}, {"KEPT", "1"}} : gl::ShaderDefines{{"MARKED", "1"}};
+}
+
+gl::ShaderDefines with(gl::ShaderDefines defines, const gl::ShaderDefines& more) {
+  defines.insert(more.begin(), more.end());
+  return defines;
+}
+
+void dispatchOverTriangles(const gl::Program& program, int64_t invocations) {
+  constexpr int64_t kPerRow = kRasterRowInvocations;  // a dispatch has at most 65,535 groups per dimension
+  program.dispatch({static_cast<int>(std::min(invocations, kPerRow)),
+                    static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
+                   {kRasterGroup, 1});
+}
+
 }  // namespace
 
 std::vector<glm::vec2> standardSamplePlaces(int samples) {
@@ -50,17 +68,21 @@ std::vector<glm::vec2> standardSamplePlaces(int samples) {
   return places;
 }
 
-SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places)
+SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places, SampleSearch search,
+                           const SameSurface& surface)
     : places_(std::move(places)),
       clear_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size(), {{"CLEAR", "1"}})),
       empty_(sampleProgram(frame, "sample_list_groups.comp.glsl", 1, {{"EMPTY", "1"}})),
       reachOf_(sampleProgram(frame, "sample_reach.comp.glsl", places_.size())),
-      smallDepth_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size())),
-      largeDepth_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"LARGE", "1"}})),
+      smallDepth_(
+          sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), searchDefines(search, true))),
+      largeDepth_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(),
+                                with(searchDefines(search, false), {{"LARGE", "1"}}))),
       groups_(sampleProgram(frame, "sample_list_groups.comp.glsl", 1)),
-      smallIds_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"IDS", "1"}})),
-      largeIds_(
-          sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), {{"IDS", "1"}, {"LARGE", "1"}})),
+      smallIds_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(),
+                              with(searchDefines(search, true), {{"IDS", "1"}}))),
+      largeIds_(sampleProgram(frame, "compute_raster.comp.glsl", places_.size(),
+                              with(searchDefines(search, false), {{"IDS", "1"}, {"LARGE", "1"}}))),
       finish_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size())),
       reach_(gl::Format::R32F, frame.sizePx()),
       marks_(gl::Format::R32UI, frame.sizePx()),
@@ -75,21 +97,71 @@ SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places)
   depths_.clearUint(0);
   ids_.clearUint(TriangleIds::kNone);
   marks_.clearUint(glm::uvec4(0));
+  if (search == SampleSearch::Triangles) return;
+  const gl::ShaderDefines keeping = {{"MARKED", "1"}, {"KEEP", "1"}};
+  neighbours_.emplace(
+      Neighbours{surface, sampleProgram(frame, "sample_marks.comp.glsl", places_.size()),
+                 sampleProgram(frame, "sample_kept_groups.comp.glsl", places_.size(), {{"EMPTY", "1"}}),
+                 sampleProgram(frame, "compute_raster.comp.glsl", places_.size(), keeping),
+                 sampleProgram(frame, "sample_kept_groups.comp.glsl", places_.size()),
+                 gl::Texture(gl::Format::R32UI, (frame.sizePx() + kGroupSide - 1) / kGroupSide),
+                 gl::Buffer(int64_t{sizeof(SampleListHeader)} + int64_t{4} * frame.gpuScene().triangleCount(),
+                            nullptr)});
 }
 
 int64_t SampleRaster::bytes() const {
-  return reach_.bytes() + marks_.bytes() + queue_.bytes() + list_.bytes() + depths_.bytes() + ids_.bytes();
+  return reach_.bytes() + marks_.bytes() + queue_.bytes() + list_.bytes() + depths_.bytes() + ids_.bytes() +
+         (neighbours_ ? neighbours_->tiles.bytes() + neighbours_->kept.bytes() : 0);
 }
 
 void SampleRaster::overTriangles(Frame& frame, const gl::Program& small, const gl::Program& large) const {
-  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
-  const int64_t invocations = int64_t{kSmallLanes} * frame.geometry().triangleCount();
-  small.dispatch({static_cast<int>(std::min<int64_t>(invocations, kPerRow)),
-                  static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
-                 {kRasterGroup, 1});
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  if (neighbours_) {
+    small.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, neighbours_->kept.id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(SampleListHeader, groupsX)));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  } else {
+    dispatchOverTriangles(small, int64_t{kSmallLanes} * frame.geometry().triangleCount());
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
   large.dispatch({kSampleLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void SampleRaster::listByTriangles(Frame& frame) const {
+  reachOf_.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
+  overTriangles(frame, smallDepth_, largeDepth_);
+  groups_.dispatch({1, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+void SampleRaster::listByNeighbours(Frame& frame) const {
+  const Neighbours& with = *neighbours_;
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  with.mark.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  with.mark.set("anchorToCamera", glm::mat4(toCamera));
+  with.mark.set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
+  with.mark.set("tolerance", static_cast<float>(with.surface.tolerance));
+  with.mark.set("cosine", static_cast<float>(std::cos(glm::radians(with.surface.angleDeg))));
+  with.tiles.bindImage(kSampleRasterTilesImage, gl::Access::Write);
+  with.mark.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
+  groups_.dispatch({1, 1}, {1, 1});
+  with.tiles.bindTexture(kSampleRasterTilesUnit);
+  with.kept.bindStorage(kSampleRasterKeptBuffer);
+  with.empty.dispatch({1, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  dispatchOverTriangles(with.keep, frame.geometry().triangleCount());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  with.groups.dispatch({1, 1}, {1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  ids_.bindStorage(kRasterIdsBuffer);
+  with.kept.bindStorage(kSampleRasterKeptTrianglesBuffer);
+  overTriangles(frame, smallDepth_, largeDepth_);
 }
 
 void dispatchOverSampleList(const gl::Program& program, const gl::Buffer& list) {
@@ -111,7 +183,9 @@ void SampleRaster::draw(Frame& frame, const std::string& pass) const {
   const auto scope = frame.passes().open(pass);
   const Geometry geometry = frame.geometry();
   for (const gl::Program* each :
-       {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_, &finish_}) {
+       {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_, &finish_,
+        neighbours_ ? &neighbours_->mark : nullptr, neighbours_ ? &neighbours_->keep : nullptr}) {
+    if (!each) continue;
     each->set("anchorToClip", anchorToClip(frame));
     each->set("near", static_cast<float>(nearPlane(frame)));
     each->set("sizePx", frame.sizePx());
@@ -133,12 +207,11 @@ void SampleRaster::draw(Frame& frame, const std::string& pass) const {
 
   overList(clear_);
   empty_.dispatch({1, 1}, {1, 1});
-  reachOf_.dispatch(frame.sizePx());
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                  GL_TEXTURE_FETCH_BARRIER_BIT);
-  overTriangles(frame, smallDepth_, largeDepth_);
-  groups_.dispatch({1, 1}, {1, 1});
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  if (neighbours_)
+    listByNeighbours(frame);
+  else
+    listByTriangles(frame);
   overTriangles(frame, smallIds_, largeIds_);
   overList(finish_);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"
@@ -13,6 +15,21 @@ namespace limen::frame {
 /// 11, which most GPUs use.
 std::vector<glm::vec2> standardSamplePlaces(int samples);
 
+/// Pixels whose samples are looked at.
+enum class SampleSearch {
+  Triangles,  ///< those that a triangle other than the one behind the centre may be seen in: all that matter
+  Neighbours  ///< those beside a pixel whose centre sees another surface
+};
+constexpr EnumNames<SampleSearch, 2> enumNames(SampleSearch) {
+  return {{{{SampleSearch::Triangles, "triangles"}, {SampleSearch::Neighbours, "neighbours"}}}};
+}
+
+/// What is one surface: points near each other's plane that face much the same way.
+struct SameSurface {
+  double tolerance = 0.003;  ///< distance from a point's plane, as a share of that from the camera
+  double angleDeg = 15.0;    ///< between normals
+};
+
 /// Which triangle each of a pixel's samples sees, in compute shaders, with the coverage and depth of
 /// ComputeRaster at the samples' places.
 ///
@@ -22,9 +39,17 @@ std::vector<glm::vec2> standardSamplePlaces(int samples);
 /// cover all samples; a triangle matters to the pixel only if it covers a sample at `reach` or nearer. Hence
 /// two passes over the triangles, depths and ids, that store nothing in most pixels; the centre's triangle
 /// itself is added last. Of two triangles at the same depth the one with the smaller index is seen.
+///
+/// With SampleSearch::Neighbours, only pixels are listed of whose eight neighbours one sees another surface
+/// behind its centre, and both passes go over those triangles alone that reach into their tiles. Whatever of
+/// another surface a sample sees is found if it holds a circle of sqrt(2) pixels across that the sample is
+/// on: that has the centre of a pixel in it, no farther from the sample than its diameter, which is less than
+/// two columns or rows from the sample's own pixel. What is thinner may be missed or found in part.
 class SampleRaster {
  public:
-  SampleRaster(Frame& frame, std::vector<glm::vec2> places);
+  /// `surface`: for Neighbours.
+  SampleRaster(Frame& frame, std::vector<glm::vec2> places, SampleSearch search = SampleSearch::Triangles,
+               const SameSurface& surface = {});
 
   /// Makes the frame's TriangleIds and, in a pass of this name, the samples.
   void draw(Frame& frame, const std::string& pass) const;
@@ -44,7 +69,18 @@ class SampleRaster {
   void overTriangles(Frame& frame, const gl::Program& small, const gl::Program& large) const;
   void overList(const gl::Program& program) const;
 
+  void listByTriangles(Frame& frame) const;
+  void listByNeighbours(Frame& frame) const;
+
+  struct Neighbours {
+    SameSurface surface;
+    const gl::Program &mark, &empty, &keep, &groups;
+    gl::Texture tiles;  // R32UI: listed pixels of each
+    gl::Buffer kept;    // SampleListHeader, then triangles
+  };
+
   std::vector<glm::vec2> places_;
+  std::optional<Neighbours> neighbours_;
   const gl::Program &clear_, &empty_, &reachOf_, &smallDepth_, &largeDepth_, &groups_, &smallIds_, &largeIds_,
       &finish_;
   gl::Texture reach_, marks_;

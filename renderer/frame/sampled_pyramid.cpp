@@ -13,9 +13,10 @@ SampledPyramid::SampledPyramid(Frame& frame, ShadowMapSettings settings, Sampled
     : settings_(settings),
       program_(
           frame.context().programs().compute("renderer/frame/sampled_pyramid.comp.glsl", texel.defines())),
-      atlas_(gl::Format::R32F, {std::max(settings.resolution / 2, 1), settings.resolution}),
+      atlas_(gl::Format::R32F, {std::max(settings.resolution / 2, 1), settings.resolution}, 1, 0, settings,
+             settings.first() ? &frame.get<SampledPyramid>(*settings.first(), texel).atlas_ : nullptr),
       pass_("frame/sampled_pyramid" + settings.name()) {
-  frame.passes().setBytesHeld(pass_, atlas_.bytes());
+  frame.passes().setBytesHeld(pass_, atlas().bytes());
 }
 
 void SampledPyramid::make(Frame& frame) {
@@ -23,8 +24,8 @@ void SampledPyramid::make(Frame& frame) {
   const auto scope = frame.passes().open(pass_);
   program_.set("resolution", settings_.resolution);
   map.bindTexture(kSampledPyramidMapUnit);
-  atlas_.bindImage(kSampledPyramidImage, gl::Access::Write);
-  program_.dispatch(atlas_.sizePx());
+  atlas().bindImage(kSampledPyramidImage, gl::Access::Write);
+  program_.dispatch(atlas().sizePx());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

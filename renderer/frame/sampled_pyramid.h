@@ -37,12 +37,13 @@ class SampledPyramid : public FrameInput {
   static constexpr const char* kName = "sampled_pyramid";
   SampledPyramid(Frame& frame, ShadowMapSettings settings, SampledTexelSetting texel = {});
   void make(Frame& frame) override;
-  const gl::Texture& atlas() const { return atlas_; }
+  const gl::Texture& atlas() const { return atlas_.own(); }
+  const gl::Texture& shared() const { return atlas_.shared(); }  ///< as for MapTexture
 
  private:
   ShadowMapSettings settings_;
   const gl::Program& program_;
-  gl::Texture atlas_;
+  MapTexture atlas_;
   std::string pass_;
 };
 

@@ -52,6 +52,29 @@ vec3 shadingNormal(SurfaceMaterial material, uvec3 vertices, vec3 weights, vec3 
   return normalize(normal / reach);
 }
 
+// Of a surface that the shares `sky` and `sun` of the light reach; unit vectors.
+vec3 litColour(vec3 albedo, vec3 normal, vec3 toLight, vec3 view, float sky, float sun) {
+  vec3 colour = ambient * sky * albedo;
+#ifdef LIT
+  const float cosine = dot(normal, toLight);
+  if (cosine > 0.0) {
+    colour += diffuse * cosine * sun * albedo;
+    const float highlight = dot(normal, normalize(toLight + view));
+    if (specular > 0.0 && highlight > 0.0) colour += specular * sun * pow(highlight, shininess);
+  }
+#endif
+  return colour;
+}
+
+// Towards the light's centre; `normal` if there is none.
+vec3 towardsLight(vec3 position, vec3 normal) {
+#ifdef LIT
+  const vec3 away = lightPosition - position;
+  if (dot(away, away) > 0.0) return normalize(away);
+#endif
+  return normal;
+}
+
 // `id`: triangle that the pixel sees; 0xffffffff: none.
 vec3 shadedColour(ivec2 pixel, uint id) {
   if (id == 0xffffffffu) return background;
@@ -79,12 +102,9 @@ vec3 shadedColour(ivec2 pixel, uint id) {
 #endif
   const vec3 albedo = patterned(material, position);
   float sky = 1.0, sun = 1.0;
+  const vec3 toLight = towardsLight(position, normal);
 #ifdef LIT
-  const vec3 away = lightPosition - position;
-  const vec3 toLight = dot(away, away) > 0.0 ? normalize(away) : normal;
   sun = material.surface == kSurfaceAperture ? 1.0 : sunShare(pixel, seen);
-#else
-  const vec3 toLight = normal;
 #endif
 #ifdef ATTRIBUTES
   if (material.surface == kSurfaceAperture) {
@@ -95,14 +115,5 @@ vec3 shadedColour(ivec2 pixel, uint id) {
     sky = light.y;
   }
 #endif
-  vec3 colour = ambient * sky * albedo;
-#ifdef LIT
-  const float cosine = dot(normal, toLight);
-  if (cosine > 0.0) {
-    colour += diffuse * cosine * sun * albedo;
-    const float highlight = dot(normal, normalize(toLight + view));
-    if (specular > 0.0 && highlight > 0.0) colour += specular * sun * pow(highlight, shininess);
-  }
-#endif
-  return colour;
+  return litColour(albedo, normal, toLight, view, sky, sun);
 }

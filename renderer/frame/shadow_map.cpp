@@ -32,6 +32,20 @@ std::string ShadowMapSettings::name() const {
   return out;
 }
 
+std::optional<ShadowMapSettings> ShadowMapSettings::first() const {
+  if (together == 1 || layer == 0) return std::nullopt;
+  ShadowMapSettings map = *this;
+  map.layer = 0;
+  map.extent = 1.0;
+  return map;
+}
+
+ShadowMapSettings ShadowMapSettings::alone() const {
+  ShadowMapSettings map = *this;
+  map.together = 1;
+  return map;
+}
+
 ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster, Extra extra) {
   const bool withIds = extra == Extra::Ids, peels = extra == Extra::Peels;
   if (chosenRaster(raster, context) == Raster::Compute) {
@@ -143,20 +157,31 @@ void ShadowMap::make(Frame& frame) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+MapTexture::MapTexture(gl::Format format, glm::ivec2 sizePx, int levels, int layers,
+                       const ShadowMapSettings& map, const MapTexture* first)
+    : all_(map.together > 1 && !first ? std::optional<gl::Texture>(std::in_place, format, sizePx, levels,
+                                                                   std::max(layers, 1) * map.together)
+                                      : std::nullopt),
+      own_(map.together == 1
+               ? gl::Texture(format, sizePx, levels, layers)
+               : (first ? first->shared() : *all_).view(std::max(layers, 1) * map.layer, layers)) {}
+
 MinMaxPyramid::MinMaxPyramid(Frame& frame, ShadowMapSettings settings)
     : settings_(settings),
       first_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl",
                                                 {{"FROM_DEPTH", "1"}})),
       next_(frame.context().programs().compute("renderer/frame/min_max_pyramid.comp.glsl")),
-      minimum_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution)),
-      maximum_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
-               std::max(levelCount(settings.resolution) - 1, 1)),
+      minima_(gl::Format::R32F, glm::ivec2(settings.resolution), levelCount(settings.resolution), 0, settings,
+              settings.first() ? &frame.get<MinMaxPyramid>(*settings.first()).minima_ : nullptr),
+      maxima_(gl::Format::R32F, glm::ivec2(std::max(settings.resolution / 2, 1)),
+              std::max(levelCount(settings.resolution) - 1, 1), 0, settings,
+              settings.first() ? &frame.get<MinMaxPyramid>(*settings.first()).maxima_ : nullptr),
       pass_("frame/min_max_pyramid" + settings.name()) {
-  frame.passes().setBytesHeld(pass_, minimum_.bytes() + maximum_.bytes());
+  frame.passes().setBytesHeld(pass_, minimum().bytes() + maximum().bytes());
 }
 
 void MinMaxPyramid::make(Frame& frame) {
-  const auto& raster = frame.get<ShadowDepth>(settings_);
+  const auto& raster = frame.get<ShadowDepth>(settings_.alone());
   frustum_ = raster.frustum();
   const auto scope = frame.passes().open(pass_);
   const int count = levels();
@@ -174,17 +199,17 @@ void MinMaxPyramid::make(Frame& frame) {
     program.set("levelsMade", std::min(made, count - 1 - base));
     for (int i = 0; i < most; ++i) {
       // Image units past the last level are bound to the last level and never written.
-      minimum_.bindImage(kMinima[static_cast<size_t>(i)], gl::Access::Write,
-                         std::min(base + 1 + i, count - 1));
-      maximum_.bindImage(kMaxima[static_cast<size_t>(i)], gl::Access::Write,
-                         std::min(base + i, maximum_.levels() - 1));
+      minimum().bindImage(kMinima[static_cast<size_t>(i)], gl::Access::Write,
+                          std::min(base + 1 + i, count - 1));
+      maximum().bindImage(kMaxima[static_cast<size_t>(i)], gl::Access::Write,
+                          std::min(base + i, maximum().levels() - 1));
     }
     if (base == 0) {
       raster.depth().bindTexture(kPyramidDepthMapUnit);
-      minimum_.bindImage(kPyramidBaseImage, gl::Access::Write, 0);
+      minimum().bindImage(kPyramidBaseImage, gl::Access::Write, 0);
     } else {
-      minimum_.bindTexture(kPyramidMinimumMapUnit);
-      maximum_.bindTexture(kPyramidMaximumMapUnit);
+      minimum().bindTexture(kPyramidMinimumMapUnit);
+      maximum().bindTexture(kPyramidMaximumMapUnit);
       program.set("sourceLevel", base);
     }
     program.dispatch(glm::ivec2(std::max((settings_.resolution >> base) / 2, 1)));

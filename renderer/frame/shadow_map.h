@@ -78,10 +78,37 @@ struct ShadowMapSettings {
   /// nearest direction within the fitted frustum.
   double extent = 1.0;
   int part = -1;  ///< of Scene::parts: only this part is in the map; -1: the whole scene
-  std::string key() const { return std::to_string(resolution) + "/" + std::to_string(int(raster)) + name(); }
+  /// Number of layers, this one among them, that are read together: their textures are layers of common
+  /// arrays. 1: textures of its own.
+  int together = 1;
+  std::string key() const {
+    return std::to_string(resolution) + "/" + std::to_string(int(raster)) + name() +
+           (together > 1 ? "/of_" + std::to_string(together) : "");
+  }
+  /// The first of the layers that are read together; none if this is the first, or the only one.
+  std::optional<ShadowMapSettings> first() const;
+  /// The same map with textures of its own.
+  ShadowMapSettings alone() const;
   /// What distinguishes the map from the usual one in pass names: "" or "/layer_1", "/part_2",
   /// "/eye_0.25_0.75".
   std::string name() const;
+};
+
+/// A texture of a shadow map or of what is made from it. Layers that are read together share an array; `own`
+/// is this layer's part of it.
+class MapTexture {
+ public:
+  /// `layers`: of this map alone, as for gl::Texture. `first`: that of the first layer of those read
+  /// together; null: this is the first, or the only one.
+  MapTexture(gl::Format format, glm::ivec2 sizePx, int levels, int layers, const ShadowMapSettings& map,
+             const MapTexture* first);
+  const gl::Texture& own() const { return own_; }
+  /// What is bound to read the map: the array, from the first of the layers that are read together.
+  const gl::Texture& shared() const { return all_ ? *all_ : own_; }
+
+ private:
+  std::optional<gl::Texture> all_;
+  gl::Texture own_;
 };
 
 /// One view, as specified by the settings.
@@ -126,15 +153,18 @@ class MinMaxPyramid : public FrameInput {
   static constexpr const char* kName = "min_max_pyramid";
   MinMaxPyramid(Frame& frame, ShadowMapSettings settings);
   void make(Frame& frame) override;
-  const gl::Texture& minimum() const { return minimum_; }  ///< R32F, level 0 is the linear shadow map
-  const gl::Texture& maximum() const { return maximum_; }  ///< R32F, its level i is the pyramid's level i + 1
+  const gl::Texture& minimum() const { return minima_.own(); }  ///< R32F, level 0 is the linear shadow map
+  /// R32F, its level i is the pyramid's level i + 1.
+  const gl::Texture& maximum() const { return maxima_.own(); }
+  const gl::Texture& sharedMinimum() const { return minima_.shared(); }  ///< as for MapTexture
+  const gl::Texture& sharedMaximum() const { return maxima_.shared(); }
   const LightFrustum& frustum() const { return frustum_; }
-  int levels() const { return minimum_.levels(); }
+  int levels() const { return minimum().levels(); }
 
  private:
   ShadowMapSettings settings_;
   const gl::Program &first_, &next_;
-  gl::Texture minimum_, maximum_;
+  MapTexture minima_, maxima_;
   LightFrustum frustum_;
   std::string pass_;
 };

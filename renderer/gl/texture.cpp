@@ -68,7 +68,7 @@ int channelCount(Format format) { return factsOf(format).channels; }
 uint32_t internalFormat(Format format) { return factsOf(format).internal; }
 
 Texture::Texture(Format format, glm::ivec2 sizePx, int levels, int layers, Sampling sampling)
-    : format_(format), sizePx_(sizePx), levels_(levels), layers_(layers) {
+    : format_(format), sizePx_(sizePx), levels_(levels), layers_(layers), sampling_(sampling) {
   assert(sizePx.x > 0 && sizePx.y > 0 && levels > 0);
   const FormatFacts facts = factsOf(format);
   glCreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &id_);
@@ -84,14 +84,37 @@ Texture::Texture(Format format, glm::ivec2 sizePx, int levels, int layers, Sampl
                     " texels (" + std::to_string(bytes() >> 20) + " MiB)",
                 {}, "choose a smaller size");
   }
-  const GLint magnify = sampling == Sampling::Linear ? GL_LINEAR : GL_NEAREST;
-  const GLint minify = levels == 1                    ? magnify
-                       : sampling == Sampling::Linear ? GL_LINEAR_MIPMAP_LINEAR
-                                                      : GL_NEAREST_MIPMAP_NEAREST;
+  setSampling();
+}
+
+void Texture::setSampling() {
+  const bool linear = sampling_ == Sampling::Linear;
+  const GLint magnify = linear ? GL_LINEAR : GL_NEAREST;
+  const GLint minify = levels_ == 1 ? magnify : linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST;
   glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, magnify);
   glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, minify);
   glTextureParameteri(id_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(id_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+Texture::Texture(uint32_t id, const Texture& of, int layers)
+    : id_(id),
+      format_(of.format_),
+      sizePx_(of.sizePx_),
+      levels_(of.levels_),
+      layers_(layers),
+      sampling_(of.sampling_) {
+  setSampling();
+}
+
+Texture Texture::view(int firstLayer, int count) const {
+  assert(firstLayer >= 0 && firstLayer + std::max(count, 1) <= layers_);
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  glTextureView(id, count > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, id_, factsOf(format_).internal, 0,
+                static_cast<GLuint>(levels_), static_cast<GLuint>(firstLayer),
+                static_cast<GLuint>(std::max(count, 1)));
+  return {id, *this, count};
 }
 
 Texture::~Texture() {
@@ -103,11 +126,13 @@ Texture::Texture(Texture&& other) noexcept
       format_(other.format_),
       sizePx_(other.sizePx_),
       levels_(other.levels_),
-      layers_(other.layers_) {}
+      layers_(other.layers_),
+      sampling_(other.sampling_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
   std::swap(id_, other.id_);
   format_ = other.format_, sizePx_ = other.sizePx_, levels_ = other.levels_, layers_ = other.layers_;
+  sampling_ = other.sampling_;
   return *this;
 }
 

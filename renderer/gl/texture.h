@@ -42,6 +42,9 @@ class Texture {
   Texture(Format format, glm::ivec2 sizePx, int levels = 1, int layers = 0,
           Sampling sampling = Sampling::Nearest);
   ~Texture();
+  /// Layers of this array as a texture of their own in the same memory: an array of `count`, or a plain
+  /// texture if that is 0. It may outlive this one.
+  Texture view(int firstLayer, int count = 0) const;
   Texture(Texture&& other) noexcept;
   Texture& operator=(Texture&& other) noexcept;
   Texture(const Texture&) = delete;
@@ -69,10 +72,14 @@ class Texture {
   void writeUint(const std::vector<uint32_t>& texels, int layer = 0) const;
 
  private:
+  Texture(uint32_t id, const Texture& of, int layers);
+  void setSampling();
+
   uint32_t id_ = 0;
   Format format_;
   glm::ivec2 sizePx_;
   int levels_, layers_;
+  Sampling sampling_;
 };
 
 /// Render target: colour textures and a depth texture, all of one size, not owned.

@@ -28,6 +28,11 @@ void mapWorld(Scene& scene, Map map) {
   for (Material& material : scene.materials) material.pattern.origin = map(material.pattern.origin);
   for (BicubicPatch& patch : scene.patches)
     for (glm::dvec3& point : patch.points) point = map(point);
+  // p -> a p + b of w p: a map of positions is affine here, directions (w = 0) lose the translation.
+  for (glm::dvec4& point : scene.surfaces.points)
+    point = glm::dvec4(point.w == 0.0 ? map(glm::dvec3(point)) - map(glm::dvec3(0.0))
+                                      : map(glm::dvec3(point) / point.w) * point.w,
+                       point.w);
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);

@@ -57,6 +57,18 @@ void feed(Feed& out, const CameraPath& path) {
   if (path.runIn) out.value(uint64_t{1});
 }
 
+void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
+  out.text("surfaces"), out.array(set.points), out.array(set.normals);
+  for (const surfaces::Patch& patch : set.patches) {
+    out.value(static_cast<uint8_t>(patch.domain)), out.value(patch.degreeU), out.value(patch.degreeV);
+    out.value(patch.normalDegree), out.value(patch.firstPoint), out.value(patch.firstNormal);
+    out.value(patch.part);
+  }
+  for (const auto& sides : set.neighbours)
+    for (const surfaces::Neighbour& side : sides)
+      out.value(side.patch), out.value(side.side), out.value(static_cast<uint8_t>(side.reversed));
+}
+
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
 /// hash.
 void feedExtras(Feed& out, const Scene& scene) {
@@ -89,6 +101,7 @@ void feedExtras(Feed& out, const Scene& scene) {
     for (const double distance : object.switchDistances) out.value(distance);
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
+  if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -156,6 +169,7 @@ std::set<std::string> Scene::traits() const {
   }
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
+  if (!surfaces.empty()) out.insert("curved_surfaces");
   for (const Part& part : parts) out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
   return out;
 }

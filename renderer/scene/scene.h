@@ -12,6 +12,7 @@
 #include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
 #include "experiments/base/settings_table.h"
+#include "renderer/surfaces/patch_set.h"
 
 namespace limen::scene {
 
@@ -173,6 +174,9 @@ struct Scene {
   std::vector<AreaLight> lights;
   CameraPath camera;
   std::vector<BicubicPatch> patches;
+  /// Curved surfaces. `mesh` holds a tessellation of each of their parts, so that renderers that know
+  /// triangles alone render the scene as well.
+  surfaces::PatchSet surfaces;
   /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
   /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
@@ -186,7 +190,7 @@ struct Scene {
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
-  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts".
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces".
   std::set<std::string> traits() const;
 };
 

@@ -41,7 +41,7 @@ std::vector<fs::path> sourcesUnder(const fs::path& root, bool withTests) {
 bool isPublicHeader(const Module& module, const std::string& path) {
   // Parts of a module that others name one by one.
   for (const std::string part : {"perception/band_thresholds/", "perception/metrics/", "perception/popping/",
-                                 "perception/threshold_maps/"})
+                                 "perception/threshold_maps/", "perception/thresholds/"})
     if (path.rfind(part, 0) == 0) return path.find('/', part.size()) == std::string::npos;
   return path.find('/', module.folder.size() + 1) == std::string::npos;
 }

@@ -212,7 +212,7 @@ std::vector<Quantity> matchedQuantities() {
 
 const RegisteredTechnique<DistanceMatched> kDistanceMatchedRegistered{
     {.name = "lod/distance_matched",
-     .version = 2,
+     .version = 3,
      .summary = "Levels by distance only, scaled to the triangles or the frame time of lod/perceptual",
      .source = "Schwarz 2009, section 9.5, Fig. 9.8 (SP-38)",
      .product = ProductKind::Colour,

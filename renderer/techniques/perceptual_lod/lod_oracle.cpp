@@ -94,7 +94,7 @@ class LodOracle : public Technique {
 
 const RegisteredTechnique<LodOracle> kLodOracleRegistered{
     {.name = "lod/oracle",
-     .version = 1,
+     .version = 2,
      .summary =
          "Coarsest levels without a visible difference, by exhaustive search in double precision (slow)",
      .source = "bench, for Schwarz 2009, section 9.5",

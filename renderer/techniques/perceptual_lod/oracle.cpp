@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "perception/threshold_maps/reference.h"
+#include "perception/thresholds/thresholds.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/perceptual_lod/level_view.h"
 
@@ -50,8 +51,7 @@ std::vector<OracleVerdict> searchLevels(frame::Frame& like, double timeS, const 
   const scene::LodSelection finest = scene::finestLevels(scene);
   const Picture wanted = pictureOf(frame, finest, shading, seenOn.display);
   const perception::Plane threshold =
-      perception::computeThresholdMap(wanted.luminanceCdM2, seenOn.display.pixelsPerDegree(), seenOn.map)
-          .thresholdCdM2;
+      perception::computeThresholds(wanted.luminanceCdM2, seenOn.display, seenOn.thresholds).thresholdCdM2;
   std::vector<OracleVerdict> out;
   for (size_t i = 0; i < scene.lodObjects.size(); ++i) {
     const scene::LodObject& object = scene.lodObjects[i];

@@ -92,7 +92,7 @@ std::vector<Quantity> layeredQuantities() {
 
 const RegisteredTechnique<PerceptualLod> kPerceptualLodRegistered{
     {.name = "lod/perceptual",
-     .version = 2,
+     .version = 3,
      .summary =
          "Levels by visible difference: layers, a threshold map of each layer's surroundings, tests in turn",
      .source = "Schwarz 2009, section 9.5 (SP-35 to SP-37)",

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "perception/thresholds/thresholds_gpu.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -35,11 +37,12 @@ PerceptualPipeline::PerceptualPipeline(frame::Frame& parent, const PerceptualLod
       images_(parent, settings, seenOn_),
       control_(settings.rule, levelCounts(parent.scene()),
                settings.startLevel == StartLevel::Finest ? 0 : std::numeric_limits<int>::max()),
-      thresholdMap_(parent.context(), parent.sizePx(), seenOn_.display, seenOn_.map, settings.gpu, false),
+      thresholds_(perception::makeThresholds(parent.context(), parent.sizePx(), seenOn_.display,
+                                             settings.model.thresholds, false)),
       counts_(parent.context(), settings.tests.count, images_.defines(), settings.tests.objectsPerFrame,
               parent.sizePx()) {
   parent.passes().setBytesHeld(kTests, counts_.bytes());
-  parent.passes().setBytesHeld("perceptual_lod/threshold_map", thresholdMap_.bytesHeld());
+  parent.passes().setBytesHeld("perceptual_lod/threshold_map", thresholds_->bytesHeld());
 }
 
 void PerceptualPipeline::prime(double timeS) {
@@ -91,7 +94,7 @@ const gl::Texture& PerceptualPipeline::makeMap(int layer, bool timed,
   images_.compose(layer);
   gl::PassList& passes = parent_.passes();
   passes.setPrefix(layerPrefix(layer));
-  return thresholdMap_.run(images_.context(), timed ? &passes : nullptr, only);
+  return thresholds_->run(images_.context(), timed ? &passes : nullptr, only);
 }
 
 void PerceptualPipeline::bindTests(const gl::Program& program, const gl::Texture& thresholds) {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "perception/threshold_maps/threshold_map_gpu.h"
+#include "perception/threshold_maps/threshold_maker.h"
 #include "renderer/techniques/perceptual_lod/layer_images.h"
 #include "renderer/techniques/perceptual_lod/test_counts.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
@@ -60,7 +61,7 @@ class PerceptualPipeline {
   const SeenOn seenOn_;
   LayerImages images_;
   TestedLevels control_;
-  perception::ThresholdMapGpu thresholdMap_;
+  std::unique_ptr<perception::ThresholdMaker> thresholds_;
   TestCounts counts_;
   int64_t frameNumber_ = 0;
   std::vector<int> layerOf_;

@@ -8,11 +8,16 @@ constexpr const char* kOpen = "Schwarz 2009, section 9.5 (not given there)";
 
 }  // namespace
 
-const SettingsTable<ModelSettings>& ModelSettings::table() {
-  using S = ModelSettings;
-  static const SettingsTable<S> kTable = {{&S::map, "map", "The threshold map"}, included(&S::viewing)};
+template <class T>
+const SettingsTable<SeenOnSettings<T>>& SeenOnSettings<T>::table() {
+  using S = SeenOnSettings<T>;
+  static const SettingsTable<S> kTable = {{&S::thresholds, "thresholds", perception::kThresholdsText},
+                                          included(&S::viewing)};
   return kTable;
 }
+
+template struct SeenOnSettings<perception::ThresholdSettings>;
+template struct SeenOnSettings<perception::ThresholdGpuSettings>;
 
 const SettingsTable<TestSettings>& TestSettings::table() {
   using S = TestSettings;
@@ -74,8 +79,7 @@ const SettingsTable<PerceptualLodSettings>& PerceptualLodSettings::table() {
        "Compare the levels with an exhaustive search in double precision when costs are counted (slow for "
        "large images and many objects)"},
       frame::shadingBinding(&S::shading),
-      included(&S::model),
-      {&S::gpu, "gpu", "How the GPU computes the threshold map"}};
+      included(&S::model)};
   return kTable;
 }
 

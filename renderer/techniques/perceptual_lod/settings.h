@@ -4,29 +4,33 @@
 #include <variant>
 
 #include "experiments/base/settings_table.h"
-#include "perception/threshold_maps/settings.h"
 #include "perception/threshold_maps/viewing.h"
+#include "perception/thresholds/settings.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/perceptual_lod/layers.h"
 #include "renderer/techniques/perceptual_lod/tested_levels.h"
 
 namespace limen::techniques {
 
-/// What turns a picture into thresholds: the display it is viewed on and the model of Schwarz 2009,
-/// section 9.4.
+/// What turns a picture into thresholds: the display it is viewed on and the model.
 struct SeenOn {
   perception::DisplayProfile display;
-  perception::ThresholdMapSettings map;
+  perception::ThresholdSettings thresholds;
 };
 
-/// Settings of the display and of the model.
-struct ModelSettings {
-  perception::ThresholdMapSettings map;
+/// Settings of the display and of the model, for thresholds computed on the GPU or (T: ThresholdSettings)
+/// not.
+template <class T>
+struct SeenOnSettings {
+  /// The single map: below the combined one hardly any level differs from the finest (docs/perceive.md).
+  T thresholds = std::variant_alternative_t<1, T>{};
   perception::ViewingSettings viewing;
-  static const SettingsTable<ModelSettings>& table();
+  static const SettingsTable<SeenOnSettings>& table();
   /// Throws Error on an unreadable display.
-  SeenOn seenOn() const { return {viewing.profile(), map}; }
+  SeenOn seenOn() const { return {viewing.profile(), perception::modelOf(thresholds)}; }
 };
+using ModelSettings = SeenOnSettings<perception::ThresholdSettings>;
+using GpuModelSettings = SeenOnSettings<perception::ThresholdGpuSettings>;
 
 /// How pixels above threshold are counted.
 enum class CountMethod {
@@ -83,8 +87,7 @@ struct PerceptualLodSettings {
   std::variant<DarkenedShadows, IgnoredShadows> castShadows;
   bool oracle = true;
   frame::ShadedSetting shading;
-  ModelSettings model;
-  perception::ThresholdMapGpuSettings gpu;
+  GpuModelSettings model;
   static const SettingsTable<PerceptualLodSettings>& table();
 };
 

@@ -19,8 +19,8 @@ void CoarseOccluders::make(frame::Frame& frame, const frame::ShadowMapSettings& 
 
 void CoarseOccluders::bind() const {
   if (!rects_) return;
-  rects_->depths().bindTexture(kRectDepthsUnit);
-  rects_->extents().bindTexture(kRectExtentsUnit);
+  rects_->sharedDepths().bindTexture(kRectDepthsUnit);
+  rects_->sharedExtents().bindTexture(kRectExtentsUnit);
 }
 
 void CoarseOccluders::configure(const gl::Program& program) const {

@@ -3,8 +3,18 @@
 // chose (occluder_search.cpp). Schwarz 2009, section 4.3.
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 #include "renderer/frame/shadow_depth.glsl"
-layout(binding = kMinimumMapUnit) uniform sampler2D minimumMap;  // level 0: the linear shadow map
-layout(binding = kMaximumMapUnit) uniform sampler2D maximumMap;  // its level i is the pyramid's level i + 1
+// Level 0 of the minimum: the linear shadow map. Level i of the maximum is the pyramid's level i + 1.
+#if MAP_LAYERS > 1
+layout(binding = kMinimumMapUnit) uniform sampler2DArray minimumMap;
+layout(binding = kMaximumMapUnit) uniform sampler2DArray maximumMap;
+float minimumDepth(ivec2 texel, int level) { return texelFetch(minimumMap, ivec3(texel, mapLayer), level).x; }
+float maximumDepth(ivec2 texel, int level) { return texelFetch(maximumMap, ivec3(texel, mapLayer), level).x; }
+#else
+layout(binding = kMinimumMapUnit) uniform sampler2D minimumMap;
+layout(binding = kMaximumMapUnit) uniform sampler2D maximumMap;
+float minimumDepth(ivec2 texel, int level) { return texelFetch(minimumMap, texel, level).x; }
+float maximumDepth(ivec2 texel, int level) { return texelFetch(maximumMap, texel, level).x; }
+#endif
 
 // Texels [low, high) of level 0.
 struct Area {

@@ -8,15 +8,15 @@ vec2 tileRange(Area area) {
   if (any(greaterThan((last >> level) - (area.low >> level), ivec2(1)))) ++level;
   const ivec2 a = area.low >> level, b = last >> level;
   boundFetches += 8u;
-  const float low = min(min(texelFetch(minimumMap, a, level).x, texelFetch(minimumMap, ivec2(b.x, a.y), level).x),
-                        min(texelFetch(minimumMap, ivec2(a.x, b.y), level).x, texelFetch(minimumMap, b, level).x));
+  const float low = min(min(minimumDepth(a, level), minimumDepth(ivec2(b.x, a.y), level)),
+                        min(minimumDepth(ivec2(a.x, b.y), level), minimumDepth(b, level)));
   float high;
   if (level == 0) {
-    high = max(max(texelFetch(minimumMap, a, 0).x, texelFetch(minimumMap, ivec2(b.x, a.y), 0).x),
-               max(texelFetch(minimumMap, ivec2(a.x, b.y), 0).x, texelFetch(minimumMap, b, 0).x));
+    high = max(max(minimumDepth(a, 0), minimumDepth(ivec2(b.x, a.y), 0)),
+               max(minimumDepth(ivec2(a.x, b.y), 0), minimumDepth(b, 0)));
   } else {
-    high = max(max(texelFetch(maximumMap, a, level - 1).x, texelFetch(maximumMap, ivec2(b.x, a.y), level - 1).x),
-               max(texelFetch(maximumMap, ivec2(a.x, b.y), level - 1).x, texelFetch(maximumMap, b, level - 1).x));
+    high = max(max(maximumDepth(a, level - 1), maximumDepth(ivec2(b.x, a.y), level - 1)),
+               max(maximumDepth(ivec2(a.x, b.y), level - 1), maximumDepth(b, level - 1)));
   }
   return vec2(low, high);
 }

@@ -5,6 +5,9 @@
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 layout(binding = kMultiScaleMapUnit) uniform sampler2DArray multiScaleMap;  // its layer i is the structure's layer i + 1
+#if MAP_LAYERS > 1
+uniform int structureLayers;  // of each layer of the map
+#endif
 uniform int baseLevel;                                     // level of the pyramid that is layer 0
 
 // Depth range of the square of 2^layer texels from `start` on, which may begin or end outside of the map.
@@ -15,11 +18,15 @@ vec2 windowRange(ivec2 start, int layer) {
   const ivec2 at = start + ((1 << layer) >> 1);
 #endif
   ++boundFetches;
+#if MAP_LAYERS > 1
+  if (layer > 0) return texelFetch(multiScaleMap, ivec3(at, mapLayer * structureLayers + layer - 1), 0).xy;
+#else
   if (layer > 0) return texelFetch(multiScaleMap, ivec3(at, layer - 1), 0).xy;
-  const float low = texelFetch(minimumMap, at, baseLevel).x;
+#endif
+  const float low = minimumDepth(at, baseLevel);
   if (baseLevel == 0) return vec2(low);
   ++boundFetches;
-  return vec2(low, texelFetch(maximumMap, at, baseLevel - 1).x);
+  return vec2(low, maximumDepth(at, baseLevel - 1));
 }
 
 vec2 combine(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }

@@ -3,11 +3,17 @@
 // with DEPTHS_SAMPLED, that of one of them, so that on average it covers as much of the light as they do.
 #ifdef DEPTHS_SAMPLED
 #include "renderer/frame/sampled_texel.glsl"
+#if MAP_LAYERS > 1
+layout(binding = kSampledDepthsUnit) uniform sampler2DArray sampledDepths;
+float sampledDepth(ivec2 place) { return texelFetch(sampledDepths, ivec3(place, mapLayer), 0).x; }
+#else
 layout(binding = kSampledDepthsUnit) uniform sampler2D sampledDepths;
+float sampledDepth(ivec2 place) { return texelFetch(sampledDepths, place, 0).x; }
+#endif
 
 float levelDepth(ivec2 texel, int level) {
-  return level == 0 ? texelFetch(minimumMap, texel, 0).x
-                    : texelFetch(sampledDepths, sampledPlace(texel, level, resolution), 0).x;
+  return level == 0 ? minimumDepth(texel, 0)
+                    : sampledDepth(sampledPlace(texel, level, resolution));
 }
 // Where that depth was found, in texels of level 0.
 vec2 depthPlace(ivec2 texel, int level) { return vec2(sampledTexel(texel, level)) + 0.5; }
@@ -18,7 +24,7 @@ float depthSpread(int level) { return 0.5 * float((1 << level) - 1); }
 float depthSpread(int level) { return 0.0; }
 #endif
 #else
-float levelDepth(ivec2 texel, int level) { return texelFetch(minimumMap, texel, level).x; }
+float levelDepth(ivec2 texel, int level) { return minimumDepth(texel, level); }
 vec2 depthPlace(ivec2 texel, int level) { return (vec2(texel) + 0.5) * float(1 << level); }
 float depthSpread(int level) { return 0.5 * float((1 << level) - 1); }
 #endif

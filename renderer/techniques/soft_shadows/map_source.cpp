@@ -5,15 +5,18 @@
 
 namespace limen::techniques {
 
-MapSource::MapSource(const MapSettings& map, const MapChoice& choice)
-    : usual_{map.resolution, map.raster}, choice_(choice) {}
+MapSource::MapSource(const MapSettings& map, const MapChoice& choice, bool together)
+    : usual_{map.resolution, map.raster}, choice_(choice), together_(together) {}
 
 void MapSource::prepare(const scene::Scene& scene) {
   maps_ = lightMaps(choice_, scene, usual_);
+  if (together_ && std::holds_alternative<PeeledMaps>(choice_))
+    for (frame::ShadowMapSettings& map : maps_) map.together = static_cast<int>(maps_.size());
   chooseAll();
 }
 
 gl::ShaderDefines MapSource::defines() const {
+  if (maps_[0].together > 1) return {{"MAP_LAYERS", std::to_string(maps_.size())}};
   const auto* points = std::get_if<LightPointMaps>(&choice_);
   if (!points) return {};
   gl::ShaderDefines defines = {{"EYE_OFF_CENTRE", "1"}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "renderer/gl/program.h"
@@ -12,12 +13,19 @@ namespace limen::techniques {
 /// The shadow maps whose occluders a technique combines, and those that a frame reads.
 class MapSource {
  public:
-  MapSource(const MapSettings& map, const MapChoice& choice);
+  /// `together`: the layers of a peeled map are read by one pass.
+  MapSource(const MapSettings& map, const MapChoice& choice, bool together = true);
 
   /// Throws Error if the scene has no such maps.
   void prepare(const scene::Scene& scene);
   /// At least one; valid from prepare() on.
   const std::vector<frame::ShadowMapSettings>& maps() const { return maps_; }
+  /// Passes over pixels that read them all.
+  size_t passes() const { return maps_[0].together > 1 ? 1 : maps_.size(); }
+  /// Those that a pass reads.
+  std::span<const frame::ShadowMapSettings> mapsOf(size_t pass) const {
+    return passes() == 1 ? std::span(maps_) : std::span(maps_).subspan(pass, 1);
+  }
   /// For the shader of the search; valid from prepare() on.
   gl::ShaderDefines defines() const;
   /// Each map has its own masks, which are reused while its object does not change.
@@ -33,6 +41,7 @@ class MapSource {
  private:
   frame::ShadowMapSettings usual_;
   MapChoice choice_;
+  bool together_;
   std::vector<frame::ShadowMapSettings> maps_;
   std::vector<bool> isDue_;  ///< of each map
   size_t nextUpdate_ = 0;

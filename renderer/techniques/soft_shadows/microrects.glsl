@@ -7,8 +7,16 @@
 // it.
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
-layout(binding = kRectDepthsUnit) uniform sampler2D rectDepths;  // its level i is level i + 1
+// Their level i is level i + 1.
+#if MAP_LAYERS > 1
+layout(binding = kRectDepthsUnit) uniform sampler2DArray rectDepths;
+layout(binding = kRectExtentsUnit) uniform usampler2DArray rectExtents;
+ivec3 rectPlace(ivec2 at) { return ivec3(at, mapLayer); }
+#else
+layout(binding = kRectDepthsUnit) uniform sampler2D rectDepths;
 layout(binding = kRectExtentsUnit) uniform usampler2D rectExtents;
+ivec2 rectPlace(ivec2 at) { return at; }
+#endif
 
 // A microrect lies strictly between its neighbours' reference texels, so that a texel between two of these may be in
 // either's.
@@ -23,7 +31,7 @@ Area areaOfRange(Range range, int level) {
 
 float rectDepth(ivec2 at, int level) {
   ++fetchCount;
-  return level == 0 ? texelFetch(minimumMap, at, 0).x : texelFetch(rectDepths, at, level - 1).x;
+  return level == 0 ? minimumDepth(at, 0) : texelFetch(rectDepths, rectPlace(at), level - 1).x;
 }
 
 // First texel and the one after the last, of level 0.
@@ -31,7 +39,7 @@ ivec4 rectBounds(ivec2 at, int level) {
   const ivec2 reference = at << level;
   if (level == 0) return ivec4(reference, reference + 1);
   ++fetchCount;
-  const ivec4 extent = ivec4(texelFetch(rectExtents, at, level - 1));
+  const ivec4 extent = ivec4(texelFetch(rectExtents, rectPlace(at), level - 1));
   return ivec4(reference - extent.xy, reference + extent.zw + 1);
 }
 
@@ -46,7 +54,7 @@ float rectBias(float z, ivec2 at, int level) {
   for (int i = 0; i < 2; ++i)
     for (int y = first.y; y <= last.y; ++y)
       for (int x = first.x; x <= last.x; ++x) {
-        const float depth = texelFetch(minimumMap, ivec2(x, y), level).x;
+        const float depth = minimumDepth(ivec2(x, y), level);
         const vec2 spread = texelFetch(texelBiases, ivec2(x, y), level).xy;
         fetchCount += 2u;
         if (depth - spread.y <= z + found + bias * z) found = max(found, depth + spread.x - z);

@@ -36,12 +36,20 @@ const SettingsTable<SearchCells>& SearchCells::table() {
        "Least width of the search area and of the light as projected onto the map; so narrower penumbrae "
        "are smooth over so many texels instead of jagged",
        "own form, as for windows of percentage-closer soft shadows"},
+      {&SearchCells::spread,
+       "spread",
+       {0.0, 1.0},
+       "",
+       "Spread of the texels that stand for cells about their middles, in widths of a cell. 1: over the "
+       "whole cell, so that edges hide as much as they should on average; 0: in the middle, where a leaning "
+       "surface has its mean depth",
+       "own form"},
       {&SearchCells::share,
        "share",
        {0.01, 1.0},
        "",
-       "Share of the budget that cells use. Levels use about half on average, cells all that they may: with "
-       "half a budget costs about as much with cells as with levels",
+       "Share of the budget that cells use. Levels use about half on average, cells all that they may: by "
+       "default 12 x 12 of a budget of 256",
        "own form"}};
   return kTable;
 }

@@ -105,14 +105,15 @@ struct LevelDivision {
                               *kSummary = "texels of a level, 1, 2, 4, ... of the map's on a side";
 };
 /// As many cells as a share of the budget allows, whatever the area's extent. Levels are powers of two, so on
-/// average they use about half of a budget; with half of it cells cost about as much. Own form; no source.
+/// average they use about half of a budget; by default cells use little more. Own form; no source.
 struct SearchCells {
   static constexpr const char
       *kKind = "cells",
       *kSummary = "as many cells as a share of the budget allows, each with the depth of one texel";
-  double middle = 0.5;      ///< width of the cells in the area's middle, as a share of the mean
+  double middle = 0.75;     ///< width of the cells in the area's middle, as a share of the mean
   double leastWidth = 1.0;  ///< texels
-  double share = 0.5;       ///< of the budget, up to 1
+  double spread = 0.6;      ///< of the texels that stand for cells, in widths of a cell about its middle
+  double share = 0.6;       ///< of the budget, up to 1
   static const SettingsTable<SearchCells>& table();
 };
 using DivisionSettings = std::variant<AutoDivision, LevelDivision, SearchCells>;
@@ -138,7 +139,7 @@ Binding<S> coarseDepthsBinding() {
 struct Micropatches : OccluderAlternative<OccluderKind::Micropatches> {
   static constexpr const char* kSummary = "texels as rectangles at one depth";
   CoarseDepths depths = CoarseDepths::Sampled;
-  DivisionSettings division = LevelDivision{};
+  DivisionSettings division = AutoDivision{};
   GapFillSettings gapFill;
   static const SettingsTable<Micropatches>& table();
 };

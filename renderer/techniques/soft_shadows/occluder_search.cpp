@@ -31,32 +31,44 @@ gl::ShaderDefines OccluderSearch::defines() const {
   return defines;
 }
 
-const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame, const frame::ShadowMapSettings& settings,
-                                                size_t map) {
-  const auto& pyramid = frame.get<frame::MinMaxPyramid>(settings);
-  coarse_.make(frame, settings);
-  bias_.make(frame, settings);
-  int64_t bytes = pyramid.minimum().bytes() + pyramid.maximum().bytes();
-  const frame::MultiScaleMap* layers = nullptr;
-  if (layersOf(structure_)) {
-    layers = &frame.get<frame::MultiScaleMap>(multiScaleSettings(structure_, settings));
-    baseLevel_ = layers->baseLevel();
-    bytes += layers->texture().bytes();
+int64_t OccluderSearch::Structures::bytes() const {
+  return pyramid.minimum().bytes() + pyramid.maximum().bytes() + (layers ? layers->texture().bytes() : 0) +
+         (sampled ? sampled->atlas().bytes() : 0);
+}
+
+OccluderSearch::Structures OccluderSearch::make(frame::Frame& frame, const frame::ShadowMapSettings& map) {
+  coarse_.make(frame, map);
+  bias_.make(frame, map);
+  const auto texel = cells_ ? std::nullopt : sampledTexel(occluders_.depths);
+  return {
+      frame.get<frame::MinMaxPyramid>(map),
+      layersOf(structure_) ? &frame.get<frame::MultiScaleMap>(multiScaleSettings(structure_, map)) : nullptr,
+      texel ? &frame.get<frame::SampledPyramid>(map, frame::SampledTexelSetting{*texel}) : nullptr};
+}
+
+const frame::LightFrustum& OccluderSearch::bind(frame::Frame& frame,
+                                                std::span<const frame::ShadowMapSettings> maps,
+                                                size_t index) {
+  structureBytes_.resize(std::max(structureBytes_.size(), index + maps.size()));
+  frusta_.clear();
+  for (size_t i = 0; i < maps.size(); ++i) {
+    const Structures made = make(frame, maps[i]);
+    structureBytes_[index + i] = made.bytes();
+    frusta_.push_back(made.pyramid.frustum());
   }
-  const frame::SampledPyramid* sampled = nullptr;
-  if (const auto texel = sampledTexel(occluders_.depths); texel && !cells_) {
-    sampled = &frame.get<frame::SampledPyramid>(settings, frame::SampledTexelSetting{*texel});
-    bytes += sampled->atlas().bytes();
-  }
-  structureBytes_.resize(std::max(structureBytes_.size(), map + 1));
-  structureBytes_[map] = bytes;
   // Last, since making the inputs binds textures too.
-  if (sampled) sampled->atlas().bindTexture(kSampledDepthsUnit);
-  if (layers) layers->texture().bindTexture(kMultiScaleMapUnit);
+  const Structures first = make(frame, maps[0]);
+  if (first.sampled) first.sampled->shared().bindTexture(kSampledDepthsUnit);
+  if (first.layers) {
+    baseLevel_ = first.layers->baseLevel();
+    structureLayers_ = first.layers->layers();
+    first.layers->shared().bindTexture(kMultiScaleMapUnit);
+  }
   coarse_.bind();
   bias_.bind();
-  maxIterations_ = maxLoopIterations(frame);
-  const BoundPyramid bound = bindPyramid(frame, settings);
+  // A shader's loops share what the driver allows.
+  maxIterations_ = maxLoopIterations(frame) / static_cast<int>(maps.size());
+  const BoundPyramid bound = bindPyramid(frame, maps[0]);
   pyramidLevels_ = bound.levels;
   return bound.frustum;
 }
@@ -69,10 +81,18 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("refinements", refinements_);
   program.set("middleWidth", cells_ ? static_cast<float>(cells_->middle) : 1.0F);
   program.set("shareRoot", cells_ ? static_cast<float>(std::sqrt(cells_->share)) : 1.0F);
+  program.set("texelsSpread",
+              static_cast<uint32_t>(std::lround(cells_ ? cells_->spread * double{1 << 16} : 0.0)));
   program.set("leastWidth", cells_ ? static_cast<float>(cells_->leastWidth) : 0.0F);
   program.set("widestGap", static_cast<float>(occluders_.gapWidth));
   program.set("roughQueries", roughQueries(structure_));
   program.set("baseLevel", baseLevel_);
+  program.set("structureLayers", structureLayers_);
+  for (size_t i = 0; frusta_.size() > 1 && i < frusta_.size(); ++i) {
+    const std::string layer = "[" + std::to_string(i) + "]";
+    program.set(("layerTangentLow" + layer).c_str(), glm::vec2(frusta_[i].low));
+    program.set(("layerTangentSize" + layer).c_str(), glm::vec2(frusta_[i].high - frusta_[i].low));
+  }
   program.set("budgetPerAxis",
               budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));
 }

@@ -23,7 +23,9 @@ float gatheredVisibility();
 // Joins what the LANES invocations of each pixel have gathered, in all of them; called by all of the group.
 void joinLanes();
 #endif
-#ifdef KEEP_MASKS
+#if defined(KEEP_MASKS) && MAP_LAYERS > 1
+void keepGathered(ivec2 pixel);
+#elif defined(KEEP_MASKS)
 void resumeGathered(ivec2 pixel);
 void keepGathered(ivec2 pixel);
 bool coveredBefore(vec4 p, ivec2 pixel);
@@ -107,7 +109,7 @@ bool findArea(vec4 p, out Area area, out float visibility) {
   visibility = 1.0;
   bool reachesOutside;
   // The first area is cut by the nearest surface of the whole map: conservative, and far smaller than by the near plane.
-  float nearest = max(near, texelFetch(minimumMap, ivec2(0), levels - 1).x);
+  float nearest = max(near, minimumDepth(ivec2(0), levels - 1));
   fetchCount = 1u;
   pixelClass = kLit;
   if (nearest >= biasedDepth(p, 0)) return false;
@@ -189,10 +191,36 @@ float visibilityUnprocessed(vec4 p, float visibility) {
   return visibility;
 }
 
+#if MAP_LAYERS > 1
+#include "renderer/techniques/soft_shadows/layer_search.glsl"
+#endif
 #if defined(SPLIT_CLASSIFY) || defined(SPLIT_GATHER)
 #include "renderer/techniques/soft_shadows/quality/split_search.glsl"
 #elif defined(LEVEL_STEPS)
 #include "renderer/techniques/soft_shadows/quality/level_steps.glsl"
+#elif MAP_LAYERS > 1
+Area areas[MAP_LAYERS];
+float areaLevels[MAP_LAYERS];
+void noteArea(ivec2 pixel, Area area, float level) {
+  areas[mapLayer] = area;
+  areaLevels[mapLayer] = level;
+}
+float notedArea(ivec2 pixel, int layer, out Area area) {
+  area = areas[layer];
+  return areaLevels[layer];
+}
+float visibilityOf(vec4 p, ivec2 pixel) {
+  float visibility;
+  readBudget(pixel);
+  if (!findAreas(pixel, visibility)) return visibilityOfNone(p, pixel, visibility);
+  clearGathered();
+  hideBehindPlane(p);
+  if (!gatherLayers(pixel)) return uintBitsToFloat(0x7fc00000u);
+#ifdef KEEP_MASKS
+  keepGathered(pixel);
+#endif
+  return gatheredVisibility();
+}
 #else
 float visibilityOf(vec4 p, ivec2 pixel) {
   Area area;

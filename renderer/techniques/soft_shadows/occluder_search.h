@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/techniques/soft_shadows/bias_form.h"
@@ -20,9 +21,11 @@ class OccluderSearch {
                  const OccluderChoice& occluders);
 
   gl::ShaderDefines defines() const;
-  /// Makes and binds the pyramid of a map, the layers above it and what occluders and biases are read from;
-  /// returns the map's frustum. `map` is the index of the map among those combined.
-  const frame::LightFrustum& bind(frame::Frame& frame, const frame::ShadowMapSettings& settings, size_t map);
+  /// Makes and binds the pyramids of the maps that a pass reads, the layers above them and what occluders and
+  /// biases are read from; returns the frustum of the first. Several maps are layers of one (MAP_LAYERS).
+  /// `index` is that of the first map among those combined.
+  const frame::LightFrustum& bind(frame::Frame& frame, std::span<const frame::ShadowMapSettings> maps,
+                                  size_t index);
   void configure(const gl::Program& program) const;
 
   /// The minimum/maximum pyramid, of which every structure needs the minimum for micro-occluders, and the
@@ -32,6 +35,15 @@ class OccluderSearch {
   int64_t occluderBytes() const { return coarse_.bytes() + bias_.bytes(); }
 
  private:
+  /// What is made of one map.
+  struct Structures {
+    const frame::MinMaxPyramid& pyramid;
+    const frame::MultiScaleMap* layers;
+    const frame::SampledPyramid* sampled;
+    int64_t bytes() const;
+  };
+  Structures make(frame::Frame& frame, const frame::ShadowMapSettings& map);
+
   int64_t budget_;  // largest per pixel; 0: no limit
   int refinements_;
   StructureSettings structure_;
@@ -39,8 +51,9 @@ class OccluderSearch {
   std::optional<SearchCells> cells_;  // empty: levels
   CoarseOccluders coarse_;
   BiasForm bias_;
-  int pyramidLevels_ = 0, baseLevel_ = 0, maxIterations_ = 0;
-  std::vector<int64_t> structureBytes_;  // of each map
+  int pyramidLevels_ = 0, baseLevel_ = 0, structureLayers_ = 0, maxIterations_ = 0;
+  std::vector<frame::LightFrustum> frusta_;  // of the maps bound
+  std::vector<int64_t> structureBytes_;      // of each map
 };
 
 }  // namespace limen::techniques

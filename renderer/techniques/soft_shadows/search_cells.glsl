@@ -7,9 +7,12 @@
 // light as the nearest of the area; and the nearer to the receiver, the fewer texels cover the light. So cells are
 // narrower in the middle. A cell's bounds are whole texels: cells neither overlap nor leave texels out.
 //
-// Which of its texels a cell reads follows from the cell's place in the map, and not from the pixel.
-uniform float middleWidth;  // of cells in the middle, as a share of the mean
-uniform float shareRoot;    // of the budget that cells use: its square root
+// Which of its texels a cell reads follows from its row and column: in the cells along an edge, whether it runs along an axis or
+// a diagonal, the texels lie at all distances from it, evenly spread, so that it covers as many of the cells as it should. Only the
+// cell around the receiver's own place reads the texel there: at little less than the receiver's depth, it hides all of the light.
+uniform float middleWidth;   // of cells in the middle, as a share of the mean
+uniform float shareRoot;     // of the budget that cells use: its square root
+uniform uint texelsSpread;   // width of a cell about its middle in which its texel lies, in 2^-16 of the cell's
 
 // Largest number of cells along an axis; 16384: no limit.
 int allowedCells() {
@@ -39,14 +42,14 @@ int cellBound(Cells cells, int i) {
 // Begin of the cell below that of bounds low and high, which may lie outside of the area, of the same width.
 int boundBelow(Cells cells, int i, int low, int high) { return i > 0 ? cellBound(cells, i - 1) : max(2 * low - high, 0); }
 
-// The texel that stands for a cell, by a lattice as in sampled_texel.glsl.
-ivec2 cellTexel(ivec2 low, ivec2 high) {
-#ifdef DEPTHS_CENTRE
-  return (low + high) >> 1;
-#else
-  const uvec2 t = uvec2(low), offset = uvec2(t.x * 3679390609u + t.y * 3152041523u, t.x * 2700274806u + t.y * 2313257605u);
-  return low + ivec2(((offset >> 16) * uvec2(high - low)) >> 16);
-#endif
+// The texel that stands for the cell in a column (x) and row (y). Multiples of the golden section fill a turn (2^32) evenly,
+// however many there are; of opposite signs, the offsets do so across both diagonals, too.
+ivec2 receiverTexel = ivec2(-1);  // that the receiver lies in
+ivec2 cellTexel(ivec2 low, ivec2 high, ivec2 cell) {
+  if (all(greaterThanEqual(receiverTexel, low)) && all(lessThan(receiverTexel, high))) return receiverTexel;
+  const uvec2 turn = uvec2(cell.y, -cell.x) * 2654435769u + 0x80000000u;
+  const uvec2 place = ((0x10000u - texelsSpread) >> 1) + (((turn >> 16) * texelsSpread) >> 16);
+  return low + ivec2((place * uvec2(high - low)) >> 16);
 }
 
 struct CellDepth {
@@ -55,11 +58,11 @@ struct CellDepth {
 };
 
 // None, if the cell lies outside of the map.
-CellDepth cellDepth(ivec2 low, ivec2 high) {
+CellDepth cellDepth(ivec2 low, ivec2 high, ivec2 cell) {
   if (any(greaterThanEqual(low, high))) return CellDepth(kEmptyDepth, ivec2(0));
-  const ivec2 texel = cellTexel(low, high);
+  const ivec2 texel = cellTexel(low, high, cell);
   ++fetchCount;
-  return CellDepth(texelFetch(minimumMap, texel, 0).x, texel);
+  return CellDepth(minimumDepth(texel, 0), texel);
 }
 
 bool cellBlocks(CellDepth cell, vec4 p, float depth) { return blocks(cell.z, cell.texel, 0, p, depth); }
@@ -74,6 +77,7 @@ float gatherOccluders(vec4 p, Area area, int level) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }
+  receiverTexel = ivec2(floor(mapTexel(p.xy / p.z)));
   const float depth = biasedDepth(p, 0);
   // Unit light coordinates of edge e (in texels) thrown by k: k (scale e + shift) + eyeOnLight.
   const vec2 scale = p.z * tangentSize / (float(resolution) * lightSize);
@@ -86,18 +90,18 @@ float gatherOccluders(vec4 p, Area area, int level) {
 #if GAP_FILL != GAP_FILL_NONE
     const int below = boundBelow(rows, y, boundsY.x, boundsY.y);
     const int first = boundBelow(columns, 0, columns.low, cellBound(columns, 1));
-    CellDepth left = cellDepth(ivec2(first, boundsY.x), ivec2(columns.low, boundsY.y));
+    CellDepth left = cellDepth(ivec2(first, boundsY.x), ivec2(columns.low, boundsY.y), ivec2(-1, y));
     bool leftBlocks = cellBlocks(left, p, depth);
 #if GAP_FILL == GAP_FILL_DIAGONAL
-    CellDepth lowerLeft = cellDepth(ivec2(first, below), ivec2(columns.low, boundsY.x));
+    CellDepth lowerLeft = cellDepth(ivec2(first, below), ivec2(columns.low, boundsY.x), ivec2(-1, y - 1));
 #endif
 #endif
     for (int x = 0; x < columns.count; ++x) {
       boundsX = ivec2(boundsX.y, cellBound(columns, x + 1));
-      const CellDepth own = cellDepth(ivec2(boundsX.x, boundsY.x), ivec2(boundsX.y, boundsY.y));
+      const CellDepth own = cellDepth(ivec2(boundsX.x, boundsY.x), ivec2(boundsX.y, boundsY.y), ivec2(x, y));
       ++examinedCount;
 #if GAP_FILL != GAP_FILL_NONE
-      const CellDepth lower = cellDepth(ivec2(boundsX.x, below), ivec2(boundsX.y, boundsY.x));
+      const CellDepth lower = cellDepth(ivec2(boundsX.x, below), ivec2(boundsX.y, boundsY.x), ivec2(x, y - 1));
 #endif
       const bool blocking = cellBlocks(own, p, depth);
       if (blocking) {

@@ -66,9 +66,11 @@ std::optional<SearchCells> cellsOf(const SearchSettings& search, const OccluderC
     if (given) throw Error(std::string("cells of search areas conflict with ") + what, where, hint);
     return std::nullopt;
   };
-  if (occluders.depths != CoarseDepths::Sampled && occluders.depths != CoarseDepths::Centre)
-    return conflict("depths that combine several texels, which only levels hold", "occluders.depths",
-                    "give depths: sampled or centre, or division: levels");
+  if (occluders.depths != CoarseDepths::Sampled)
+    return conflict(
+        "depths that only levels hold", "occluders.depths",
+        "leave it out, or give division: levels; division: {kind: cells, spread: 0} takes the depths at "
+        "the middles of cells");
   if (!std::holds_alternative<FinestWithin>(levels))
     return conflict("a choice of levels", "levels", "leave it out, or give occluders.division: levels");
   if (!std::holds_alternative<PlaneBias>(search.bias))

@@ -24,10 +24,10 @@ struct SearchSettings {
 
 /// Throws Error if a requested level is not in the map, or if levels are chosen in more than one way.
 void checkLevels(const SearchSettings& search, const OccluderChoice& occluders, const LevelSettings& levels);
-/// Throws Error if occluders are not made of texels whose stored bias would apply.
 /// The cells that search areas are divided into; none: levels. Throws if they conflict with other settings.
 std::optional<SearchCells> cellsOf(const SearchSettings& search, const OccluderChoice& occluders,
                                    const LevelSettings& levels);
+/// Throws Error if occluders are not made of texels whose stored bias would apply.
 void checkBias(const SearchSettings& search, const OccluderChoice& occluders);
 
 }  // namespace limen::techniques

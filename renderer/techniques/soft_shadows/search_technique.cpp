@@ -21,7 +21,7 @@ SearchTechnique::SearchTechnique(SearchParts parts)
     : pass_(std::move(parts.shader), std::move(parts.pass), {}),
       search_(parts.search, parts.levels, parts.occluders),
       quality_(parts.levels, parts.passes),
-      maps_(parts.search.map, parts.maps),
+      maps_(parts.search.map, parts.maps, parts.layersTogether),
       budget_(mostOf(parts.search.budget)),
       budgets_(makeBudgetDriver(parts.search.budget)),
       gathering_(std::move(parts.gathering)),
@@ -39,7 +39,7 @@ void SearchTechnique::prepare(frame::Frame& frame) {
   pass_.prepare(frame);
   if (budgets_) budgets_->prepare(frame);
   if (quality_.splits()) {
-    split_.emplace(frame, pass_, quality_, smooths());
+    split_.emplace(frame, pass_, quality_, smooths(), static_cast<int>(maps_.mapsOf(0).size()));
   } else {
     pass_.compile(frame);
     frame.passes().setBytesHeld(pass_.name(), pass_.visibility().bytes());
@@ -53,10 +53,9 @@ void SearchTechnique::prepare(frame::Frame& frame) {
   }
 }
 
-const frame::LightFrustum& SearchTechnique::bindInputs(frame::Frame& frame,
-                                                       const frame::ShadowMapSettings& map) {
+const frame::LightFrustum& SearchTechnique::bindInputs(frame::Frame& frame, const frame::ShadowMapSettings&) {
   if (split_) split_->makeInputs(frame);
-  const frame::LightFrustum& frustum = search_.bind(frame, map, current_);
+  const frame::LightFrustum& frustum = search_.bind(frame, maps_.mapsOf(current_), current_);
   if (budgetMap_) budgetMap_->bindTexture(kBudgetMapUnit);
   if (split_) split_->bindInputs(frame);
   return frustum;
@@ -69,13 +68,13 @@ void SearchTechnique::setUniforms(const gl::Program& program) const {
 }
 
 void SearchTechnique::runPasses(frame::Frame& frame, const CountImages* counts) {
-  if (split_ && maps_.maps().size() == 1) {
+  if (split_ && maps_.passes() == 1) {
     split_->run(frame, pass_, *this, maps_.maps()[0], counts, SplitRunner::Timing::Stages);
     if (counts) counted_->add(*counts);
     return;
   }
   const auto scope = frame.passes().open(pass_.name());
-  for (current_ = 0; current_ < maps_.maps().size(); ++current_) {
+  for (current_ = 0; current_ < maps_.passes(); ++current_) {
     if (!maps_.isDue(current_)) continue;
     if (split_)
       split_->run(frame, pass_, *this, maps_.maps()[current_], counts, SplitRunner::Timing::Whole);
@@ -88,7 +87,7 @@ void SearchTechnique::runPasses(frame::Frame& frame, const CountImages* counts) 
 
 void SearchTechnique::run(frame::Frame& frame, const CountImages* counts) {
   if (budgets_) budgetMap_ = &budgets_->make(frame);
-  for (current_ = 0; current_ < maps_.maps().size(); ++current_)
+  for (current_ = 0; current_ < maps_.passes(); ++current_)
     if (maps_.isDue(current_)) VisibilityPass::makeInputs(frame, *this, maps_.maps()[current_]);
   current_ = 0;
   // Frames that count take longer than those they represent.

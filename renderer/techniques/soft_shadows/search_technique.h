@@ -22,6 +22,8 @@ struct SearchParts {
   PassSettings passes;
   OccluderChoice occluders;
   MapChoice maps;
+  /// The layers of a peeled map are read by one pass; otherwise each by its own, as other maps are.
+  bool layersTogether = true;
   std::unique_ptr<Gathering> gathering;
   std::unique_ptr<ProductStage> last;  ///< null: the visibility as gathered
 };
@@ -70,7 +72,7 @@ class SearchTechnique : public Technique, public CountsPixels, private PassInput
   OccluderSearch search_;
   LevelOfQuality quality_;
   MapSource maps_;
-  size_t current_ = 0;                      // the map currently read
+  size_t current_ = 0;                      // the map currently read, or the first of several
   int64_t budget_;                          // largest per pixel; 0: no limit
   std::unique_ptr<BudgetDriver> budgets_;   // null: the same budget for all pixels
   const gl::Texture* budgetMap_ = nullptr;  // of this frame

@@ -16,7 +16,20 @@ layout(binding = kSearchImage, rgba32ui) uniform writeonly uimage2D outSearch;
 #endif
 
 uniform ivec2 sizePx;
-uniform vec2 tangentLow, tangentSize;  // x/z, y/z at the map's lower edge, and the map's extents
+// x/z, y/z at the map's lower edge, and the map's extents. MAP_LAYERS: of the layer of a map that is read at present, one of
+// several that are read together.
+#if MAP_LAYERS > 1
+uniform vec2 layerTangentLow[MAP_LAYERS], layerTangentSize[MAP_LAYERS];
+int mapLayer = 0;
+vec2 tangentLow = vec2(0.0), tangentSize = vec2(1.0);
+void readLayer(int layer) {
+  mapLayer = layer;
+  tangentLow = layerTangentLow[layer];
+  tangentSize = layerTangentSize[layer];
+}
+#else
+uniform vec2 tangentLow, tangentSize;
+#endif
 uniform float near;
 uniform vec2 lightSize;  // full extents
 uniform vec2 eyeOnLight;  // place that the map is seen from and receivers are relative to, in unit light coordinates

@@ -83,8 +83,8 @@ void setMapUniforms(const gl::Program& program, const frame::Frame& frame, const
 
 BoundPyramid bindPyramid(frame::Frame& frame, const frame::ShadowMapSettings& map) {
   const auto& pyramid = frame.get<frame::MinMaxPyramid>(map);
-  pyramid.minimum().bindTexture(kMinimumMapUnit);
-  pyramid.maximum().bindTexture(kMaximumMapUnit);
+  pyramid.sharedMinimum().bindTexture(kMinimumMapUnit);
+  pyramid.sharedMaximum().bindTexture(kMaximumMapUnit);
   return {pyramid.frustum(), pyramid.levels()};
 }
 

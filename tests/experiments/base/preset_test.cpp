@@ -24,9 +24,18 @@ struct Fixed {
 struct Free {
   static constexpr const char *kKind = "free", *kSummary = "any width";
 };
+/// Has a parameter of the same path as Fixed, which is another.
+struct Limited {
+  static constexpr const char *kKind = "limited", *kSummary = "at most a width";
+  int width = 5;
+  static const SettingsTable<Limited>& table() {
+    static const SettingsTable<Limited> kTable = {{&Limited::width, "width", {1, 9}, "px", "Largest width"}};
+    return kTable;
+  }
+};
 struct Filter {
   Style style = Style::Modern;
-  std::variant<Free, Fixed> width;
+  std::variant<Free, Fixed, Limited> width;
   double gain = 1.0;
   static const SettingsTable<Filter>& table();
 };
@@ -67,6 +76,12 @@ TEST(Preset, WhatIsGivenPrevails) {
   EXPECT_TRUE(std::holds_alternative<Free>(other.width));
   EXPECT_EQ(other.gain, 1.0);
   EXPECT_EQ(std::get<Fixed>(read({{"filter.width", "fixed"}}).width).width, 3);
+}
+
+TEST(Preset, LeavesAlternativesAloneThatItDoesNotChoose) {
+  const Filter other = read({{"filter.style", "classic"}, {"filter.width", "limited"}});
+  EXPECT_EQ(std::get<Limited>(other.width).width, 5);
+  EXPECT_EQ(other.gain, 2.0);
 }
 
 // A value that is the default without the preset must be written with it.

@@ -75,6 +75,28 @@ TEST_F(BandThresholdGpuTest, AgreesWithTheReferenceForEverySetting) {
   compareAll(image, with([](auto& s) { s.predictor.bands.kernelCentre = 0.5; }), "kernel");
 }
 
+TEST_F(BandThresholdGpuTest, APartOfTheMapIsThatPartOfTheWholeMap) {
+  const Plane luminance = picture(201, 143);
+  gl::Texture input(gl::Format::R32F, {201, 143}), flat(gl::Format::R32F, {201, 143});
+  input.write(toImage(luminance));
+  flat.clear(glm::vec4(50.0F));
+  for (const bool one : {false, true}) {
+    BandThresholdSettings settings;
+    if (one) settings.output = BandOutput{2};
+    BandThresholdGpu gpu(context(), input.sizePx(), display(), settings, false);
+    const Image whole = gpu.run(input).read();
+    for (const MapArea area : {MapArea{{70, 41}, {90, 80}}, MapArea{{0, 0}, {1, 1}},
+                               MapArea{{63, 31}, {66, 34}}, MapArea{{190, 100}, {201, 143}}}) {
+      gpu.run(flat);  // so that nothing is left of the last run
+      const Image part = gpu.run(input, nullptr, area).read();
+      for (int y = area.low.y; y < area.high.y; ++y)
+        for (int x = area.low.x; x < area.high.x; ++x)
+          ASSERT_EQ(part.data[size_t(y) * 201 + size_t(x)], whole.data[size_t(y) * 201 + size_t(x)])
+              << x << ", " << y;
+    }
+  }
+}
+
 TEST_F(BandThresholdGpuTest, ColourIsTurnedIntoTheDisplaysLuminance) {
   Image colour(70, 40, 4);
   for (size_t i = 0; i < colour.data.size(); ++i) colour.data[i] = static_cast<float>((i * 37 % 101) / 80.0);
@@ -99,6 +121,9 @@ TEST_F(BandThresholdGpuTest, RefusesWhatItDoesNotCompute) {
   EXPECT_THROW(make(settings), Error);
   settings = {};
   settings.output = BandOutput{9};
+  EXPECT_THROW(make(settings), Error);
+  settings = {};
+  settings.predictor.bands.weights = FittedWeights{};
   EXPECT_THROW(make(settings), Error);
 }
 

@@ -48,7 +48,7 @@ TEST(ThresholdSettings, WhatMeansNothingCannotBeWritten) {
 TEST(ThresholdModel, FrequencyElevationsAreThePublishedOnes) {
   // F of Barten 1989 at given frequencies: ppd = frequency / 0.5 puts band 0, whose peak is Nyquist, there.
   const auto f = [](double cpd, double luminance, const char* rule) {
-    const ThresholdModel model(settingsOf({{"frequency_elevation", textValue(rule)}}), 2.0 * cpd, 64, 64);
+    const ThresholdModel model(thesisOf({{"frequency_elevation", textValue(rule)}}), 2.0 * cpd, 64, 64);
     return model.frequencyElevation(0, luminance);
   };
   EXPECT_NEAR(f(5, 100, "actual"), 1.1002899108504425, 1e-6);
@@ -71,7 +71,7 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
     std::stringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
     const ThresholdModel model(
-        settingsOf({{"frequency_elevation", textValue(original ? "original" : "actual")}}),
+        thesisOf({{"frequency_elevation", textValue(original ? "original" : "actual")}}),
         2.0 * std::stod(cells[1]), 64, 64);
     const double expected = std::stod(cells[7]);
     EXPECT_NEAR(model.frequencyElevation(0, original ? 7.0 : std::stod(cells[2])) / expected, 1.0, 1e-9)
@@ -83,9 +83,9 @@ TEST(ThresholdModel, FrequencyElevationsAreThoseOfTheReferenceVectors) {
 
 TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
   // Band 2 of the six-tap pyramid at 41.07 ppd peaks at 2.459 cpd.
-  const ThresholdModel one(settingsOf({{"frequency_elevation.low", textValue("one")}}), kStudyPpd, 256, 256);
-  const ThresholdModel computed(settingsOf({{"frequency_elevation", textValue("original")},
-                                            {"frequency_elevation.low", textValue("as_computed")}}),
+  const ThresholdModel one(thesisOf({{"frequency_elevation.low", textValue("one")}}), kStudyPpd, 256, 256);
+  const ThresholdModel computed(thesisOf({{"frequency_elevation", textValue("original")},
+                                          {"frequency_elevation.low", textValue("as_computed")}}),
                                 kStudyPpd, 256, 256);
   EXPECT_NEAR(one.peaks()[2].frequencyCpd(kStudyPpd), 2.459, 0.001);
   EXPECT_EQ(one.frequencyElevation(2, 30.0), 1.0);
@@ -95,13 +95,45 @@ TEST(ThresholdModel, LowFrequencyRuleCanBeSetEitherWay) {
 }
 
 TEST(ThresholdModel, PeakSensitivityIsThatOfTheSearch) {
-  const ThresholdModel model(settingsOf(), kStudyPpd, 64, 64);
-  const auto csf = makeCsf("barten89");
-  for (const double luminance : {0.00123, 0.0456, 0.789, 1.0, 7.7, 83.0, 250.0, 4321.0}) {
-    CsfPoint point;
-    point.luminanceCdM2 = luminance;
-    EXPECT_NEAR(model.peakSensitivity(luminance) / csf->peak(point).sensitivity, 1.0, 1e-8) << luminance;
+  for (const char* name : {"barten89", "castlecsf"}) {
+    const ThresholdModel model(settingsOf({{"csf", textValue(name)}}), kStudyPpd, 64, 64);
+    const auto csf = makeCsf(name);
+    // 0.0113 cd/m2: where castleCSF's transient mechanism starts to respond to flicker at once.
+    for (const double luminance : {0.00123, 0.01129, 0.0113, 0.0114, 0.0116, 0.013, 0.0456, 0.789, 1.0, 7.7,
+                                   83.0, 250.0, 999.0, 4321.0}) {
+      CsfPoint point;
+      point.luminanceCdM2 = luminance;
+      point.areaDeg2 = 7.07;
+      EXPECT_NEAR(model.peakSensitivity(luminance) / csf->peak(point).sensitivity, 1.0, 1e-7)
+          << name << ' ' << luminance;
+    }
   }
+}
+
+TEST(ThresholdModel, AreaOfTheStimulusIsThatOfTheImageOrGiven) {
+  // Of 64 x 32 pixels at 16 per degree: 4 x 2 degrees.
+  CsfPoint point;
+  point.frequencyCpd = 8.0;
+  point.luminanceCdM2 = 30.0;
+  const auto castle = makeCsf("castlecsf");
+  const auto sensitivity = [](const ThresholdMapSettings& settings) {
+    return ThresholdModel(settings, 16.0, 64, 32).sensitivity(0, 30.0);
+  };
+  point.areaDeg2 = 7.07;
+  EXPECT_DOUBLE_EQ(sensitivity({}), castle->sensitivity(point));
+  point.areaDeg2 = 8.0;
+  EXPECT_DOUBLE_EQ(sensitivity(settingsOf({{"stimulus_area", textValue("image")}})),
+                   castle->sensitivity(point));
+  point.areaDeg2 = 1.5;
+  EXPECT_DOUBLE_EQ(sensitivity(settingsOf({{"stimulus_area.deg2", 1.5}})), castle->sensitivity(point));
+}
+
+TEST(ThresholdSettings, TheThesissModelIsAPreset) {
+  const ThresholdMapSettings thesis = thesisOf();
+  EXPECT_EQ(thesis.csf, "barten89");
+  EXPECT_TRUE(std::holds_alternative<ImageArea>(thesis.stimulusArea));
+  EXPECT_EQ(ThresholdMapSettings{}.csf, "castlecsf");
+  EXPECT_EQ(thesisOf({{"csf", textValue("daly98")}}).csf, "daly98");  // beside the preset
 }
 
 TEST(ThresholdModel, AdaptationLevelsFollowTheViewingDistance) {
@@ -129,10 +161,16 @@ TEST(ThresholdModel, UnknownModelsAndDisplaysAreRefused) {
 
 TEST(ThresholdModel, TviOfACsfIsTheVisionModels) {
   for (const char* name : {"from_csf", "from_csf_scaled", "ward", "ward_smoothed"}) {
-    const ThresholdModel model(settingsOf({{"tvi", textValue(name)}}), kStudyPpd, 64, 64);
-    const auto tvi = makeTvi(name, makeCsf("barten89"), CsfPoint{});
-    for (const double luminance : {0.02, 0.9, 30.0, 100.0, 700.0})
-      EXPECT_NEAR(model.tviCdM2(luminance) / tvi(luminance), 1.0, 1e-8) << name << luminance;
+    const ThresholdModel thesis(thesisOf({{"tvi", textValue(name)}}), kStudyPpd, 64, 64),
+        own(settingsOf({{"tvi", textValue(name)}}), kStudyPpd, 64, 64);
+    CsfPoint point;
+    point.areaDeg2 = 7.07;
+    const auto thesisTvi = makeTvi(name, makeCsf("barten89"), CsfPoint{}),
+               ownTvi = makeTvi(name, makeCsf("castlecsf"), point);
+    for (const double luminance : {0.02, 0.9, 30.0, 100.0, 700.0}) {
+      EXPECT_NEAR(thesis.tviCdM2(luminance) / thesisTvi(luminance), 1.0, 1e-8) << name << luminance;
+      EXPECT_NEAR(own.tviCdM2(luminance) / ownTvi(luminance), 1.0, 1e-7) << name << luminance;
+    }
   }
 }
 

@@ -65,6 +65,12 @@ inline ThresholdMapSettings settingsOf(const std::map<std::string, ParameterValu
       ParameterValues(ThresholdMapSettings::table().parameters(), given));
 }
 
+/// With the choices of Schwarz 2009 for what is not given.
+inline ThresholdMapSettings thesisOf(std::map<std::string, ParameterValue> given = {}) {
+  given["model"] = std::string("schwarz_2009");
+  return settingsOf(given);
+}
+
 /// Pixels per degree of the thesis's study: pitch 0.255 mm at 60 cm.
 inline constexpr double kStudyPpd = 41.07;
 

@@ -5,6 +5,7 @@
 
 #include "experiments/base/error.h"
 #include "perception/threshold_maps/model.h"
+#include "perception/vision/castle_csf.h"
 #include "perception/vision/csf_models.h"
 #include "perception/vision/masking.h"
 #include "perception/vision/tvi.h"
@@ -35,14 +36,13 @@ TEST(ThresholdMap, OfAFlatFieldIsAFifthOfTheTvi) {
 
 TEST(ThresholdMap, EqualsThePlainFormulaWorkedPixelByPixel) {
   // A second implementation for the original form: pyramid by the plain two-dimensional kernel, direct
-  // bilinear sampling, equations (9.10) and (9.11) term by term.
+  // bilinear sampling, equations (9.10) and (9.11) term by term; with the thesis's sensitivity and castleCSF.
   const int size = 64;
   const Plane image = picture(size, size);
-  const ThresholdMapSettings settings = settingsOf({{"decomposition", text("pyramid")},
-                                                    {"frequency_elevation", text("original")},
-                                                    {"flat", text("exact")},
-                                                    {"adaptation", text("nearest_level")}});
-  const ThresholdMap map = computeThresholdMap(image, kStudyPpd, settings);
+  const std::map<std::string, ParameterValue> form = {{"decomposition", text("pyramid")},
+                                                      {"frequency_elevation", text("original")},
+                                                      {"flat", text("exact")},
+                                                      {"adaptation", text("nearest_level")}};
   std::vector<std::vector<double>> levels = {image.data};
   const double w[6] = {1, 5, 10, 10, 5, 1};
   for (int n = size; n > 1; n /= 2) {
@@ -71,21 +71,38 @@ TEST(ThresholdMap, EqualsThePlainFormulaWorkedPixelByPixel) {
     return (1 - v) * ((1 - u) * at(x0, y0) + u * at(x0 + 1, y0)) +
            v * ((1 - u) * at(x0, y0 + 1) + u * at(x0 + 1, y0 + 1));
   };
+  struct Model {
+    ThresholdMapSettings settings;
+    std::function<double(double, double)> csf;
+    double peak;  ///< at 100 cd/m2
+  };
+  const auto castle = [](double cpd, double luminance) {
+    return csfCastleAchromatic(cpd, 0.15 * cpd, luminance, 7.07);
+  };
+  double castlePeak = 0.0;
+  for (double cpd = 0.1; cpd < 60.0; cpd *= 1.0003) castlePeak = std::max(castlePeak, castle(cpd, 100.0));
   const double f[5] = {20.535, 5.177, 2.459, 1.215, 0.606};  // cpd, six-tap column of the table
-  for (int y = 0; y < size; y += 7)
-    for (int x = 0; x < size; x += 5) {
-      const double adaptation = sample(5, x, y);
-      double top = 0.0, bottom = 0.0;
-      for (size_t i = 0; i < 5; ++i) {
-        const double c = std::abs((sample(i, x, y) - sample(i + 1, x, y)) / sample(i + 2, x, y));
-        const double F = f[i] < 4.0 ? 1.0 : 525.2 / csfBarten89(f[i], 100.0);
-        top += c * F * elevationDaly(c * csfBarten89(f[i], adaptation));
-        bottom += c;
+  for (const Model& model :
+       {Model{thesisOf(form), [](double cpd, double luminance) { return csfBarten89(cpd, luminance); },
+              525.2},
+        Model{settingsOf(form), castle, castlePeak}}) {
+    const ThresholdMap map = computeThresholdMap(image, kStudyPpd, model.settings);
+    for (int y = 0; y < size; y += 7)
+      for (int x = 0; x < size; x += 5) {
+        const double adaptation = sample(5, x, y);
+        double top = 0.0, bottom = 0.0;
+        for (size_t i = 0; i < 5; ++i) {
+          const double c = std::abs((sample(i, x, y) - sample(i + 1, x, y)) / sample(i + 2, x, y));
+          const double F = f[i] < 4.0 ? 1.0 : model.peak / model.csf(f[i], 100.0);
+          top += c * F * elevationDaly(c * model.csf(f[i], adaptation));
+          bottom += c;
+        }
+        const double expected = 0.2 * tviWard(adaptation) * top / bottom;
+        // Frequencies are given to four digits, the peak sensitivity too.
+        EXPECT_NEAR(map.thresholdCdM2.at(x, y) / expected, 1.0, 1e-3)
+            << model.settings.csf << " " << x << " " << y;
       }
-      const double expected = 0.2 * tviWard(adaptation) * top / bottom;
-      // Frequencies are given to four digits, the peak sensitivity too.
-      EXPECT_NEAR(map.thresholdCdM2.at(x, y) / expected, 1.0, 1e-3) << x << ' ' << y;
-    }
+  }
 }
 
 TEST(ThresholdMap, IsFiniteForEveryImageAndSetting) {

@@ -25,7 +25,7 @@ class MicrorectTest : public gl::GlTest {
   static Made build(const Image& map, MergeRule rule) {
     const gl::Texture minimum(gl::Format::R32F, {map.width, map.height});
     minimum.write(map);
-    const MicrorectLevels levels(context(), map.width, rule);
+    const MicrorectLevels levels(context(), ShadowMapSettings{map.width}, rule);
     levels.build(minimum);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     Made out;

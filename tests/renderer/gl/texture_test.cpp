@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <optional>
+
 #include "renderer/gl/buffer.h"
 #include "tests/renderer/gl/gl_fixture.h"
 
@@ -56,6 +58,25 @@ TEST_F(TextureTest, IntegerTexturesKeepAllBits) {
 TEST_F(TextureTest, BytesCountAllLevelsAndLayers) {
   EXPECT_EQ(Texture(Format::R32F, {4, 4}, 3).bytes(), 4 * (16 + 4 + 1));
   EXPECT_EQ(Texture(Format::RG16F, {3, 5}, 1, 7).bytes(), 4 * 15 * 7);
+}
+
+TEST_F(TextureTest, ViewsShareTheMemoryOfTheirLayersAndOutliveTheArray) {
+  std::optional<Texture> array(std::in_place, Format::R32F, glm::ivec2(4, 2), 2, 3);
+  array->clear(glm::vec4(1.0F));
+  Texture middle = array->view(1);
+  const Texture last = array->view(1, 2).view(1);
+  EXPECT_EQ(middle.levels(), 2);
+  EXPECT_EQ(3 * middle.bytes(), array->bytes());
+  middle.clear(glm::vec4(2.0F));
+  EXPECT_EQ(array->readLayer(0).at(3, 1), 1.0F);
+  EXPECT_EQ(array->readLayer(1).at(3, 1), 2.0F);
+  EXPECT_EQ(array->readLayer(2).at(3, 1), 1.0F);
+  Image image(4, 2, 1);
+  image.at(2, 1) = 5.0F;
+  last.write(image);
+  EXPECT_EQ(array->readLayer(2).at(2, 1), 5.0F);
+  array.reset();
+  EXPECT_EQ(middle.read().at(0, 0), 2.0F);
 }
 
 TEST_F(TextureTest, AFramebufferOfDifferentKindsIsRefused) {

@@ -206,6 +206,7 @@ TEST_F(AccelerationStructures, GrowthOfTheSearchAreaClosesTheSeamBesideLitPixels
                                        {{"structure", std::string(structure)},
                                         {"resolution", int64_t{1024}},
                                         {"budget.limit", int64_t{16}},
+                                        {"occluders.division", std::string("levels")},
                                         {"structure.growth", growth}},
                                        {192, 144});
       const auto worldOf = [&](size_t i) {

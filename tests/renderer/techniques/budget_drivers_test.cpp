@@ -7,6 +7,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/image_file.h"
 #include "perception/threshold_maps/reference.h"
+#include "perception/thresholds/thresholds.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/soft_shadows/quality/painted_budget.h"
 #include "tests/renderer/techniques/technique_fixture.h"
@@ -225,13 +226,22 @@ TEST_F(BudgetDrivers, PaintedIsTheImagesRoots) {
 // goes with their square: 2.5 %.
 TEST_F(BudgetDrivers, PerceptualMeetsTheThresholdsOfTheReference) {
   const perception::DisplayProfile display = perception::displayPreset("schwarz_2009");
-  const double error = 2.0;
-  for (const double contrast : {0.0, 0.6}) {
+  using perception::PredictorModel;
+  const std::map<std::string, perception::ThresholdSettings> kinds = {
+      {"single", perception::ThresholdMapSettings{}},
+      {"schwarz_2009", perception::ThresholdMapSettings::preset(PredictorModel::Schwarz2009)},
+      {"bands", perception::BandThresholdSettings{}}};
+  for (const auto& [kind, contrast] : std::vector<std::pair<std::string, double>>{
+           {"single", 0.0}, {"single", 0.6}, {"schwarz_2009", 0.6}, {"bands", 0.6}}) {
     const scene::Scene scene = hall(contrast);
-    const Given given = driver("perceptual", {{"budget.most", int64_t{400}}, {"budget.error", error}});
+    // Combined thresholds are lower: errors of half as much light keep budgets between their limits.
+    const double error = kind == "bands" ? 0.5 : 2.0;
+    const Given given =
+        driver("perceptual",
+               {{"budget.most", int64_t{400}}, {"budget.error", error}, {"budget.threshold_map", kind}});
     const Steered steered = steer(scene, given, {90, 61});
-    const perception::ThresholdMap reference = perception::computeThresholdMap(
-        perception::luminancePlane(steered.picture, display), display.pixelsPerDegree(), {});
+    const perception::Thresholds reference = perception::computeThresholds(
+        perception::luminancePlane(steered.picture, display), display, kinds.at(kind));
     const Image thresholds = perception::toImage(reference.thresholdCdM2);
     int between = 0;
     for (size_t i = 0; i < steered.budgets.pixels(); ++i) {

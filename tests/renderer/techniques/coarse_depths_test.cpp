@@ -86,6 +86,7 @@ TEST_F(CoarseDepths, DoNotDependOnTheCamera) {
     for (const char* chosen : {"finest_within", "blend"}) {
       const Given given = withMaps("soft_shadows/bitmask", 512,
                                    {{"occluders.depths", std::string(depths)},
+                                    {"occluders.division", std::string("levels")},
                                     {"levels", std::string(chosen)},
                                     {"budget.limit", int64_t{64}}});
       const Image upright = render(scene, "soft_shadows/bitmask", given, sizePx).product;

@@ -43,7 +43,10 @@ class LevelStep : public TechniqueTest {
   /// Without a structure a pixel's search area is the same whatever its level, and all pixels that see the
   /// map are processed: a render of one level for all says what any pixel has of it.
   static Given common() {
-    return {{"resolution", int64_t{128}}, {"structure", text("none")}, {"refinements", int64_t{0}}};
+    return {{"resolution", int64_t{128}},
+            {"structure", text("none")},
+            {"refinements", int64_t{0}},
+            {"occluders.division", text("levels")}};
   }
   static Given with(Given given, const Given& more) {
     for (const auto& [name, value] : more) given[name] = value;
@@ -240,6 +243,7 @@ TEST_F(LevelStep, OfAFullBlendShrinksWithTheChangeOfLevel) {
       with(common(), {{"budget.limit", int64_t{25}}, {"levels", text("blend")}, {"passes", text("split")}}),
       kStepSize);
   const Stepped hard = count(scene, kByArea, with(common(), {{"budget.limit", int64_t{25}}}), kStepSize);
+  ASSERT_TRUE(blend.steps && hard.steps);
   double finest = 100.0, coarsest = 0.0, most = 0.0;
   for (size_t i = 0; i < blend.visibility.pixels(); ++i) {
     if (!blend.processed(i)) continue;
@@ -275,8 +279,10 @@ TEST_F(LevelStep, OfAFullBlendShrinksWithTheChangeOfLevel) {
 // Levels change by far less than 1 from a pixel to the next on most surfaces, a tenth of which narrow blends
 // make the whole of, and hard choices jump by 1.
 TEST_F(LevelStep, OfAFullBlendIsBelowItsControlsAtTheSameBudget) {
-  const Given given = {
-      {"resolution", int64_t{256}}, {"budget.limit", int64_t{16}}, {"passes", text("split")}};
+  const Given given = {{"resolution", int64_t{256}},
+                       {"budget.limit", int64_t{16}},
+                       {"occluders.division", text("levels")},
+                       {"passes", text("split")}};
   const scene::Scene scene = makeScene("sphere_grid");
   const auto usual = [&](const char* levels) {
     return count(scene, kByArea, with(given, {{"levels", text(levels)}}), {96, 72})
@@ -303,7 +309,8 @@ TEST_F(LevelStep, IsNotThereWithoutChangesNorOfSeveralMaps) {
 // Masks that are kept for what comes after make no other visibility.
 TEST_F(LevelStep, OfKeptMasksIsThatOfPlainOnes) {
   const scene::Scene scene = makeScene("sphere_grid");
-  const Given given = {{"resolution", int64_t{128}}, {"budget.limit", int64_t{9}}};
+  const Given given = {
+      {"resolution", int64_t{128}}, {"budget.limit", int64_t{9}}, {"occluders.division", text("levels")}};
   const Stepped plain = count(scene, kByMask, given, {48, 36});
   const Stepped kept = count(scene, "soft_shadows/bitmask_coloured", given, {48, 36});
   EXPECT_GT(plain.counters.at("level_step_max"), 0.0);

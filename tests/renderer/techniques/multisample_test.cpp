@@ -248,7 +248,7 @@ TEST_F(MultisampleShadows, SamplesSeeWhatRaysThroughTheirPlacesSee) {
       const frame::GpuScene gpuScene(scene);
       const glm::ivec2 sizePx(33, 26);
       frame::Frame frame(context(), scene, gpuScene, sizePx);
-      const PixelSamples samples(frame, kSamples, raster, false);
+      const PixelSamples samples(frame, kSamples, raster, nullptr);
       ASSERT_EQ(samples.places().size(), size_t{kSamples});
       const SamplesSeen seen = samplesSeen(frame, samples);
       const SeenByRays rays(frame, scene, gpuScene);
@@ -272,7 +272,7 @@ TEST_F(MultisampleShadows, BothRasterisersAgreeOnSamplesExceptBesideEdges) {
     const frame::GpuScene gpuScene(scene);
     const glm::ivec2 sizePx(61, 43);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
-    const PixelSamples driver(frame, kSamples, frame::Raster::Hardware, false);
+    const PixelSamples driver(frame, kSamples, frame::Raster::Hardware, nullptr);
     const frame::SampleRaster compute(frame, driver.places());
     const SamplesSeen expected = samplesSeen(frame, driver);
     frame.begin();
@@ -352,7 +352,7 @@ TEST_F(MultisampleShadows, TwoSurfacesInAPixelTakeTwoPoints) {
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, sizePx);
   for (const frame::Raster raster : {frame::Raster::Hardware, frame::Raster::Compute}) {
-    const PixelSamples samples(frame, kSamples, raster, false);
+    const PixelSamples samples(frame, kSamples, raster, nullptr);
     const SamplesSeen seen = samplesSeen(frame, samples);
     frame.begin();
     const std::vector<uint32_t> centres = frame.get<frame::TriangleIds>().texture().readUint();

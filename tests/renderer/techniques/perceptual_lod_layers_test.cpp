@@ -4,6 +4,7 @@
 
 #include "experiments/base/error.h"
 #include "perception/threshold_maps/reference.h"
+#include "perception/thresholds/thresholds.h"
 #include "tests/renderer/techniques/perceptual_lod_fixture.h"
 
 namespace limen::techniques {
@@ -274,20 +275,23 @@ TEST_F(PerceptualLodPicture, RectanglesHoldAllPixelsOfTheirObjects) {
 
 TEST_F(PerceptualLodPicture, MapsAreThoseOfTheReferenceModelForTheContext) {
   const scene::Scene scene = field();
-  const PerceptualLodSettings chosen =
-      settings({{"layers.count", int64_t{2}}, {"tests.threshold_maps", std::string("all")}});
-  const SeenOn seenOn = chosen.model.seenOn();
-  Bench bench(scene, chosen, {80, 60});
-  bench.run(1);
-  for (int layer = 1; layer <= 2; ++layer) {
-    const Image map = bench.pipeline.debugViews().at("threshold_map_" + std::to_string(layer))->read();
-    const perception::Plane wanted =
-        perception::computeThresholdMap(
-            perception::luminancePlane(bench.pipeline.surroundings(layer).context->read(), seenOn.display),
-            seenOn.display.pixelsPerDegree(), seenOn.map)
-            .thresholdCdM2;
-    for (size_t i = 0; i < map.pixels(); ++i)
-      ASSERT_NEAR(map.data[i], wanted.data[i], 0.005 * wanted.data[i]) << i;  // as the map promises
+  for (const char* kind : {"bands", "single"}) {
+    const PerceptualLodSettings chosen = settings({{"thresholds", std::string(kind)},
+                                                   {"layers.count", int64_t{2}},
+                                                   {"tests.threshold_maps", std::string("all")}});
+    const SeenOn seenOn = chosen.model.seenOn();
+    Bench bench(scene, chosen, {80, 60});
+    bench.run(1);
+    for (int layer = 1; layer <= 2; ++layer) {
+      const Image map = bench.pipeline.debugViews().at("threshold_map_" + std::to_string(layer))->read();
+      const perception::Plane wanted =
+          perception::computeThresholds(
+              perception::luminancePlane(bench.pipeline.surroundings(layer).context->read(), seenOn.display),
+              seenOn.display, seenOn.thresholds)
+              .thresholdCdM2;
+      for (size_t i = 0; i < map.pixels(); ++i)
+        ASSERT_NEAR(map.data[i], wanted.data[i], 0.005 * wanted.data[i]) << kind << i;  // as both promise
+    }
   }
 }
 

@@ -141,7 +141,8 @@ TEST_F(ReceiverPlane, SampledDepthsErrLessThanNearestOnes) {
       return rootMeanSquare(render(scene, "soft_shadows/bitmask", given, {64, 48}).product, truth);
     };
     const double thesis = error(inThesisForm({})),
-                 nearest = error({{"occluders.depths", std::string("nearest")}}), sampled = error({});
+                 nearest = error({{"occluders.depths", std::string("nearest")}}),
+                 sampled = error({{"occluders.division", std::string("levels")}});
     EXPECT_LT(nearest, thesis) << name;
     EXPECT_LT(sampled, nearest) << name;
     EXPECT_LT(sampled, 0.66 * thesis) << name;

@@ -83,7 +83,7 @@ TEST(SceneNeedsDecision, NoOtherCandidateIsBothFasterAndMoreExact) {
       ASSERT_FALSE(other.time.medianMs < chosen.time.medianMs &&
                    other.error.meanSquare < chosen.error.meanSquare)
           << "round " << round;
-    ASSERT_TRUE(!verdict.withinTarget || chosen.error.rmse() <= target) << "round " << round;
+    ASSERT_TRUE(!verdict.withinTarget || chosen.error.value() <= target) << "round " << round;
   }
 }
 
@@ -111,18 +111,18 @@ TEST(SceneNeedsRecord, SaysWhatFullSizeMadeOfTheChoice) {
   found.times = "hours";
   found.check.time = {2.5, 2.4, 2.6, 9};
   const auto counter = [&](const std::string& name) {
-    for (const Counter& one : countersOf(found, 0.02))
+    for (const Counter& one : countersOf(found))
       if (one.name == name) return one.value;
     return -1.0;
   };
   found.check.error.meanSquare = 0.015 * 0.015;
-  EXPECT_THAT(remarksOn(found, 0.02), testing::Contains(testing::HasSubstr("the target is met")));
+  EXPECT_THAT(remarksOn(found), testing::Contains(testing::HasSubstr("the target is met")));
   EXPECT_EQ(counter("target_met"), 1.0);
   EXPECT_EQ(counter("candidates_within_target"), 1.0);
   EXPECT_EQ(counter("check_ms"), 2.5);
   EXPECT_DOUBLE_EQ(counter("expected_rmse"), 0.01);
   found.check.error.meanSquare = 0.025 * 0.025;
-  const std::vector<std::string> remarks = remarksOn(found, 0.02);
+  const std::vector<std::string> remarks = remarksOn(found);
   EXPECT_THAT(remarks, testing::Contains(testing::HasSubstr("the target is missed")));
   EXPECT_THAT(remarks, testing::Contains("not beaten in time and RMSE: 2 ms, 0.01: hard"));
   EXPECT_THAT(remarks,
@@ -132,12 +132,33 @@ TEST(SceneNeedsRecord, SaysWhatFullSizeMadeOfTheChoice) {
   // What the record counts is declared.
   std::vector<std::string> declared;
   for (const Quantity& one : needsQuantities()) declared.push_back(one.name);
-  for (const Counter& one : countersOf(found, 0.02)) EXPECT_THAT(declared, testing::Contains(one.name));
+  for (const Counter& one : countersOf(found)) EXPECT_THAT(declared, testing::Contains(one.name));
 
+  found.target = RmseTarget{0.001};
   found.verdict = decide(found.tried, 0.001);
-  EXPECT_THAT(remarksOn(found, 0.001),
+  EXPECT_THAT(remarksOn(found),
               testing::Contains(testing::HasSubstr("the most exact one was chosen")));
   EXPECT_EQ(counter("candidates_within_target"), 0.0);
+}
+
+TEST(SceneNeedsRecord, SaysWhichDisplayJndAreFor) {
+  SceneNeedsFound found;
+  found.target = JndTarget{.value = 1.0};
+  // Errors are the squares of what is limited.
+  found.tried = {withFigures(1.0, 1.5), withFigures(2.0, 0.5)};
+  for (Tried& one : found.tried) one.candidate.technique = "soft_shadows/hard";
+  found.verdict = decide(found.tried, 1.0);
+  found.check.error.meanSquare = 0.6 * 0.6;
+  const std::vector<std::string> remarks = remarksOn(found);
+  EXPECT_THAT(remarks, testing::Contains("1 of 2 candidates stay within the target, p95 of JND on desktop_24 1: "
+                                         "the cheapest of them was chosen"));
+  EXPECT_THAT(remarks, testing::Contains("not beaten in time and p95 of JND on desktop_24: 2 ms, 0.5: hard"));
+  std::vector<std::string> declared;
+  for (const Quantity& one : needsQuantities()) declared.push_back(one.name);
+  for (const Counter& one : countersOf(found)) {
+    EXPECT_THAT(declared, testing::Contains(one.name));
+    EXPECT_THAT(one.name, testing::Not(testing::HasSubstr("rmse")));
+  }
 }
 
 class SceneNeedsErrors : public testing::Test {
@@ -190,7 +211,7 @@ TEST_F(SceneNeedsErrors, OnlySurfacesCount) {
   truth.receivers.at(1, 0, 3) = -1.0F;
   Image product(2, 1, 1, 0.75F);
   product.at(1, 0) = 0.0F;
-  EXPECT_DOUBLE_EQ(estimateError(product, truth).rmse(), 0.25);
+  EXPECT_DOUBLE_EQ(estimateError(product, truth).value(), 0.25);
   EXPECT_EQ(errorMap(product, truth).at(0, 0), 0.25F);
   EXPECT_EQ(errorMap(product, truth).at(1, 0), 0.0F);
 }
@@ -212,7 +233,7 @@ TEST_F(SceneNeedsErrors, LimitsHoldTheErrorOfAllPixels) {
     Image product(20, 20, 1, 1.0F);
     for (float& value : product.data) value = wrong(random_) ? 0.9F : 1.0F;
     const ErrorEstimate estimate = estimateError(product, truth);
-    held += estimate.lowRmse() <= std::sqrt(1e-3) && std::sqrt(1e-3) <= estimate.highRmse();
+    held += estimate.low() <= std::sqrt(1e-3) && std::sqrt(1e-3) <= estimate.high();
   }
   EXPECT_GT(held, 0.9 * 500);
 }

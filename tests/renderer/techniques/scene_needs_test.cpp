@@ -10,6 +10,9 @@
 #include <set>
 
 #include "renderer/techniques/soft_shadows/scene_needs/needs.h"
+#include "perception/metrics/metric.h"
+#include "perception/metrics/metric_gpu.h"
+#include "renderer/frame/shaded.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -93,10 +96,10 @@ TEST_F(SceneNeedsTest, ALightSmallerThanATexelNeedsHardShadows) {
   ASSERT_LT(near, 0.05 * all);
   // Twice that leaves room for what the choice of pixels must not exceed.
   const double target = 2.0 * std::sqrt(near / all);
-  const SceneNeedsFound found = find(scene, fewCandidates(kResolution), {.targetRmse = target});
+  const SceneNeedsFound found = find(scene, fewCandidates(kResolution), {.target = RmseTarget{target}});
   EXPECT_EQ(found.chosen().candidate.technique, "soft_shadows/hard");
   EXPECT_TRUE(found.verdict.withinTarget);
-  EXPECT_LE(found.check.error.rmse(), 0.5 * target);
+  EXPECT_LE(found.check.error.value(), 0.5 * target);
 }
 
 TEST_F(SceneNeedsTest, WhatTheLightsCentreDoesNotSeeNeedsManyMaps) {
@@ -105,38 +108,98 @@ TEST_F(SceneNeedsTest, WhatTheLightsCentreDoesNotSeeNeedsManyMaps) {
   // 2 / n wherever one straight edge crosses the light, 0.125 for 16 x 16.
   const scene::Scene scene = makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}});
   const std::vector<Candidate> candidates = fewCandidates(256);
-  const SceneNeedsFound found = find(scene, candidates, {.targetRmse = 0.02});
+  const SceneNeedsFound found = find(scene, candidates, {.target = RmseTarget{0.02}});
   EXPECT_EQ(found.chosen().candidate.technique, "soft_shadows/sampled_light");
   EXPECT_TRUE(found.verdict.withinTarget);
-  EXPECT_LE(found.check.error.rmse(), 0.125);
+  EXPECT_LE(found.check.error.value(), 0.125);
   for (const Tried& one : found.tried) {
     if (one.candidate.technique == "soft_shadows/sampled_light") continue;
-    EXPECT_GT(one.error.lowRmse(), 0.02) << describe(one.candidate);
+    EXPECT_GT(one.error.low(), 0.02) << describe(one.candidate);
   }
   expectNothingBeats(found);
 }
 
 TEST_F(SceneNeedsTest, WithoutACandidateWithinTheTargetTheMostExactIsTaken) {
   const scene::Scene scene = makeScene("box_under_light", {{"box_height", 2.0}, {"light_size", 1.5}});
-  const SceneNeedsFound found = find(scene, fewCandidates(256), {.targetRmse = 1e-6});
+  const SceneNeedsFound found = find(scene, fewCandidates(256), {.target = RmseTarget{1e-6}});
   EXPECT_FALSE(found.verdict.withinTarget);
   for (const Tried& one : found.tried)
-    EXPECT_LE(found.chosen().error.rmse(), one.error.rmse() + found.chosen().error.rmseNoise());
+    EXPECT_LE(found.chosen().error.value(), one.error.value() + found.chosen().error.noise());
   expectNothingBeats(found);
+}
+
+TEST_F(SceneNeedsTest, WithinAJndIsWhatTheMetricSaysOfTheRunAtFullSize) {
+  // The target's figure is that of the metric `jnd`, asked here as a sweep asks it: of the technique's own
+  // product, with the shaded frame's surfaces, against rays of another seed.
+  const scene::Scene scene = makeScene("two_boxes");
+  const std::vector<Candidate> candidates = fewCandidates(256);
+  const NeedsReference rays{.samples = 1024, .checkSamples = 1024};
+  const glm::ivec2 size(96, 72);
+  const SceneNeedsFound found =
+      find(scene, candidates, {.target = JndTarget{.value = 2.0}, .reference = rays}, size);
+  EXPECT_EQ(found.pictureSizePx, size);
+  expectNothingBeats(found);
+  const auto p95 = [&](const Candidate& candidate) {
+    const Rendered test = render(scene, candidate.technique, candidate.given, size);
+    const Rendered truth =
+        render(scene, "soft_shadows/ray_traced", {{"samples", int64_t{4096}}, {"seed", int64_t{9}}}, size);
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, size);
+    frame::ShadedSetting albedo, direct;
+    albedo.ambient = 1.0, albedo.diffuse = 0.0, albedo.background = -1.0;
+    direct.ambient = 0.0, direct.diffuse = 1.0, direct.background = 0.0;
+    frame.begin();
+    const perception::LitSurfaces surfaces{&frame.get<frame::Shaded>(albedo).texture(),
+                                           &frame.get<frame::Shaded>(direct).texture()};
+    frame.end();
+    Image mask(size.x, size.y, 1);
+    for (size_t i = 0; i < mask.pixels(); ++i)
+      mask.data[i] = test.receivers.data[4 * i + 3] >= 0.0F ? 1.0F : 0.0F;
+    perception::MetricGpu gpu(context());
+    perception::ComparisonInput input;
+    input.test = &test.product, input.reference = &truth.product, input.mask = &mask;
+    input.gpu = &gpu, input.surfaces = &surfaces, input.depicts = perception::Depicts::ShareOfLight;
+    const perception::MetricInfo& metric = perception::MetricRegistry::instance().get("jnd");
+    return metric.compare(input, ParameterValues(metric.parameters, {})).value;
+  };
+  ASSERT_TRUE(found.verdict.withinTarget);
+  for (const Tried& one : found.tried)
+    // Each figure's own noise is half of what is seen between two references of 1,024 rays.
+    EXPECT_NEAR(one.error.value(), p95(one.candidate), found.referenceNoise) << describe(one.candidate);
+  EXPECT_LE(found.chosen().error.value(), 2.0);
+  // Times are places: all cheaper ones are seen.
+  for (const Tried& one : found.tried)
+    if (one.time.medianMs < found.chosen().time.medianMs) {
+      EXPECT_GT(one.error.value(), 2.0) << describe(one.candidate);
+    }
+}
+
+TEST_F(SceneNeedsTest, AFartherViewerNeedsNoMore) {
+  // From twice as far edges subtend half the angle; what is chosen there takes no more time.
+  const scene::Scene scene = makeScene("two_boxes");
+  const auto chosenAt = [&](double distanceM) {
+    JndTarget target{.value = 1.0};
+    target.viewing.display = {"desktop_24", ParameterValues(perception::PresetViewing::table().parameters(),
+                                                            {{"distance_m", distanceM}})};
+    return find(scene, fewCandidates(256), {.target = target, .reference = {.samples = 1024}}, {96, 72})
+        .chosen()
+        .time.medianMs;
+  };
+  EXPECT_LE(chosenAt(8.0), chosenAt(0.6));
 }
 
 TEST_F(SceneNeedsTest, FrondsGetNothingThatAnotherCandidateBeats) {
   const scene::Scene scene = makeScene("palm");
   const std::vector<Candidate> candidates = fewCandidates(256);
   for (const double target : {0.1, 0.02}) {
-    const SceneNeedsFound found = find(scene, candidates, {.targetRmse = target});
+    const SceneNeedsFound found = find(scene, candidates, {.target = RmseTarget{target}});
     expectNothingBeats(found);
     if (found.verdict.withinTarget) {
-      EXPECT_LE(found.chosen().error.rmse(), target);
+      EXPECT_LE(found.chosen().error.value(), target);
       // Times are places: all that come before are not exact enough.
       for (const Tried& one : found.tried) {
         if (one.time.medianMs >= found.chosen().time.medianMs) continue;
-        EXPECT_GT(one.error.rmse() * (1.0 + margin(found.tried)), target) << describe(one.candidate);
+        EXPECT_GT(one.error.value() * (1.0 + margin(found.tried)), target) << describe(one.candidate);
       }
     }
   }

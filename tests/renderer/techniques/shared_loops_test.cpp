@@ -113,8 +113,11 @@ TEST_F(SharedLoops, BiasesLevelsAndBudgetsHaveTheBitsOfTheSinglePass) {
     expectSameBits(scene, kBitmask, {{"bias", text(bias)}}, bias);
   expectSameBits(scene, kBitmask, {{"bias", text("stored")}, {"occluders.depths", text("nearest")}},
                  "stored bias");
-  for (const int64_t budget : {0, 4, 37, 1024})
-    expectSameBits(scene, kBitmask, {{"budget.limit", budget}}, "budget " + std::to_string(budget), {8});
+  // Of a budget of 4 cells use one, which hides all of the light or nothing.
+  for (const int64_t budget : {0, 9, 37, 1024})
+    for (const char* division : {"levels", "cells"})
+      expectSameBits(scene, kBitmask, {{"budget.limit", budget}, {"occluders.division", text(division)}},
+                     "budget " + std::to_string(budget) + ", " + division, {8});
   for (const char* levels : {"coarsest_over", "blend", "narrow_blend", "dither"})
     expectSameBits(scene, kBitmask, {{"levels", text(levels)}, {"budget.limit", int64_t{36}}}, levels,
                    {1, 4, 8});

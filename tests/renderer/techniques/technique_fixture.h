@@ -62,7 +62,8 @@ class TechniqueTest : public testing::Test {
   }
 
   /// `given` for a search of micro-occluders (its names behind `prefix`), with what it leaves open as Schwarz
-  /// 2009 has it, and not by default: bias by the receiver's slope, nearest depths, one invocation per pixel.
+  /// 2009 has it, and not by default: bias by the receiver's slope, nearest depths, and so texels of
+  /// levels, one invocation per pixel.
   static Given inThesisForm(Given given, const std::string& prefix = "") {
     const auto chosen = [&](const char* name, const char* otherwise) {
       const auto found = given.find(prefix + name);

@@ -22,11 +22,13 @@ class ThresholdMapTechniqueTest : public TechniqueTest {
 TEST_F(ThresholdMapTechniqueTest, AgreesWithTheReferenceOnARendering) {
   const scene::Scene scene = makeScene("two_boxes");
   for (const char* decomposition : {"stack", "pyramid"}) {
-    const Given given = {{"map.decomposition", text(decomposition)}, {"shading.shadow", true}};
+    const Given given = {{"thresholds", text("single")},
+                         {"thresholds.decomposition", text(decomposition)},
+                         {"shading.shadow", true}};
     const Image reference = render(scene, "perception/threshold_map_reference", given, {150, 97}).product;
     for (const int64_t precision : {32, 16}) {
       Given own = given;
-      own["gpu.precision"] = precision;
+      own["thresholds.gpu.precision"] = precision;
       const Image map = render(scene, "perception/threshold_map", own, {150, 97}).product;
       // 0.5 % and a step of the TVI of 0.72 %, on which rounding puts a pixel to either side.
       EXPECT_LT(largestRelative(map, reference), precision == 16 ? 0.02 : 0.0123) << precision;
@@ -38,11 +40,10 @@ TEST_F(ThresholdMapTechniqueTest, BandsAgreeWithTheirReferenceOnARendering) {
   const scene::Scene scene = makeScene("two_boxes");
   for (const bool one : {false, true}) {
     Given given = {{"shading.shadow", true}};
-    if (one) given["map.output"] = text("band");
-    const Image reference = render(scene, "perception/band_thresholds_reference", given, {150, 97}).product;
-    EXPECT_LT(
-        largestRelative(render(scene, "perception/band_thresholds", given, {150, 97}).product, reference),
-        0.005)
+    if (one) given["thresholds.output"] = text("band");
+    const Image reference = render(scene, "perception/threshold_map_reference", given, {150, 97}).product;
+    EXPECT_LT(largestRelative(render(scene, "perception/threshold_map", given, {150, 97}).product, reference),
+              0.005)
         << one;
   }
 }
@@ -50,7 +51,8 @@ TEST_F(ThresholdMapTechniqueTest, BandsAgreeWithTheirReferenceOnARendering) {
 TEST_F(ThresholdMapTechniqueTest, ABackgroundAloneIsAFlatField) {
   // A linear grey of 0.5 between 0.5 and 250 cd/m2 is 125.25; on Ward's last branch tvi = 10^-1.255 L.
   const scene::Scene scene = makeScene("two_boxes");
-  const Given given = {{"shading.ambient", 0.0},
+  const Given given = {{"thresholds", text("single")},
+                       {"shading.ambient", 0.0},
                        {"shading.diffuse", 0.0},
                        {"shading.background", 0.0},
                        {"shading.pattern", false}};
@@ -73,15 +75,16 @@ TEST_F(ThresholdMapTechniqueTest, FollowsTheViewingDistance) {
 
 TEST_F(ThresholdMapTechniqueTest, CountsWhatItDeclares) {
   const scene::Scene scene = makeScene("two_boxes");
-  for (const char* name : {"perception/threshold_map", "perception/threshold_map_reference",
-                           "perception/band_thresholds", "perception/band_thresholds_reference"}) {
-    const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
-    const Rendered rendered = render(scene, name, {}, {64, 48}, true);
-    EXPECT_EQ(rendered.counters.size(), info.counters.size());
-    for (const Quantity& counter : info.counters) EXPECT_GE(rendered.counter(counter.name), 0.0);
-    EXPECT_EQ(toText(info.product), "threshold");
-  }
-  const Rendered rendered = render(scene, "perception/threshold_map", {}, {64, 64}, true);
+  for (const char* name : {"perception/threshold_map", "perception/threshold_map_reference"})
+    for (const char* kind : {"bands", "single"}) {
+      const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
+      const Rendered rendered = render(scene, name, {{"thresholds", text(kind)}}, {64, 48}, true);
+      EXPECT_EQ(rendered.counters.size(), info.counters.size());
+      for (const Quantity& counter : info.counters) EXPECT_GE(rendered.counter(counter.name), 0.0);
+      EXPECT_EQ(toText(info.product), "threshold");
+    }
+  const Rendered rendered =
+      render(scene, "perception/threshold_map", {{"thresholds", text("single")}}, {64, 64}, true);
   EXPECT_EQ(rendered.counter("gaussian_levels"), 7.0);
   // Read 16 of colour, write 4, write and read luminance, write level 1 and read it twice: a quarter of 12;
   // and twice a quarter of 2 for what its rounding took away.

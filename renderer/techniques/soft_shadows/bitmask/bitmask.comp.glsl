@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // KEEP_MASKS: masks of all pixels stay in an image, so that further maps add to them and other passes read them. Not where
-// LEVEL_STEPS tries levels that no pixel has chosen.
+// LEVEL_STEPS tries levels that no pixel has chosen. MAP_LAYERS: all maps add to the masks in one pass.
 
 #ifdef LEVEL_STEPS
 #undef KEEP_MASKS
 #endif
 #include "renderer/techniques/soft_shadows/shadow_lookup.glsl"
-#ifdef KEEP_MASKS
+#if defined(KEEP_MASKS) && !(MAP_LAYERS > 1)
 // What the search finds is not yet the pixel's visibility.
 #define visibilityOf visibilityInMap
 #endif
@@ -58,7 +58,7 @@ void keepGathered(ivec2 pixel) {
     imageStore(keptMasks, ivec3(pixel, keptSet * KEPT_LAYERS + layer), wordsOf(layer));
 }
 
-#if LANES > 1
+#if LANES > 1 || MAP_LAYERS > 1
 void clearGathered() { clearMask(); }
 #else
 // The mask holds what earlier maps found.

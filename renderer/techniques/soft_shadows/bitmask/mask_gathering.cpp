@@ -48,7 +48,7 @@ gl::ShaderDefines MaskGathering::prepare(frame::Frame& frame, const MapSource& m
   defineEnum(defines, "QUAD_MASK", quads_.mask);
   defines["TABLE_SIZE"] = std::to_string(quads_.tableSize);
   sets_ = maps.perObject() ? static_cast<int>(maps.maps().size()) : 1;
-  if (stored_ == Masks::Stored || maps.maps().size() > 1) {
+  if (stored_ == Masks::Stored || maps.passes() > 1) {
     defines["KEEP_MASKS"] = "1";
     masks_.emplace(frame.sizePx(), samples_.size(), static_cast<size_t>(sets_));
     frame.passes().setBytesHeld(kKept, masks_->bytes());

@@ -46,8 +46,7 @@ class Multisample : public Technique {
   void prepare(frame::Frame& frame) override {
     const glm::ivec2 sizePx = frame.sizePx();
     const auto* surfaces = std::get_if<SurfaceSamples>(&settings_.method);
-    if (settings_.samples > 1)
-      samples_.emplace(frame, settings_.samples, settings_.raster, surfaces != nullptr);
+    if (settings_.samples > 1) samples_.emplace(frame, settings_.samples, settings_.raster, surfaces);
     sampleBytes_ = samples_ ? samples_->bytes() : 0;
     if (samples_) frame.passes().setBytesHeld(kRaster, sampleBytes_);
     points_.reset();

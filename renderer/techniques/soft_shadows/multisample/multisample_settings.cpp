@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
 
+#include "experiments/base/error.h"
+
 namespace limen::techniques {
 
 const SettingsTable<ChosenSample>& ChosenSample::table() {
@@ -42,6 +44,11 @@ const SettingsTable<SurfaceSamples>& SurfaceSamples::table() {
        {0, 8},
        "1/px",
        "Room for points beyond one per pixel; samples that find none take their pixel's visibility",
+       "bench"},
+      {&S::search, "search",
+       "Pixels whose samples are looked at: all in which triangles other than the one behind the centre may "
+       "be seen, or those beside a pixel whose centre sees another surface, which misses what is thinner "
+       "than 1.4 pixels",
        "bench"}};
   return kTable;
 }
@@ -102,6 +109,24 @@ const SettingsTable<MultisampleColouredSettings>& MultisampleColouredSettings::t
       {&S::surfaces, "surfaces", "Which samples of a pixel share a point"}};
   return kTable;
 }
+
+namespace {
+
+void checkSearch(const SurfaceSamples& surfaces, frame::Raster raster, const char* where) {
+  if (surfaces.search == frame::SampleSearch::Neighbours && raster != frame::Raster::Compute)
+    throw Error(
+        "the driver's rasteriser finds the samples of all pixels, and 'search: neighbours' leaves some out",
+        where, "give raster: compute, or search: triangles");
+}
+
+}  // namespace
+
+void MultisampleSettings::check() const {
+  if (const auto* surfaces = std::get_if<SurfaceSamples>(&method))
+    checkSearch(*surfaces, raster, "method.search");
+}
+
+void MultisampleColouredSettings::check() const { checkSearch(surfaces, raster, "surfaces.search"); }
 
 std::optional<ChosenSample> MultisampleSettings::chosen() const {
   if (const auto* interpolated = std::get_if<InterpolatedSamples>(&method)) return interpolated->chosen;

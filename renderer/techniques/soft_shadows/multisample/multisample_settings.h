@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "renderer/frame/sample_raster.h"
 #include "renderer/techniques/soft_shadows/inner_technique.h"
 
 namespace limen::techniques {
@@ -37,6 +38,7 @@ struct SurfaceSamples {
   double tolerance = 0.003;  ///< distance from a point's plane, as a share of that from the camera
   double angleDeg = 15.0;    ///< between normals
   double capacity = 0.5;     ///< further points per pixel
+  frame::SampleSearch search = frame::SampleSearch::Triangles;
   static const SettingsTable<SurfaceSamples>& table();
 };
 
@@ -66,6 +68,7 @@ struct MultisampleSettings {
   std::variant<SurfaceSamples, InterpolatedSamples, PixelForAll, EverySample> method;
   static const SettingsTable<MultisampleSettings>& table();
 
+  void check() const;
   /// None unless one sample represents its pixel.
   std::optional<ChosenSample> chosen() const;
 };
@@ -76,6 +79,7 @@ struct MultisampleColouredSettings {
   int samples = 4;
   frame::Raster raster = frame::Raster::Auto;
   SurfaceSamples surfaces;
+  void check() const;
   static const SettingsTable<MultisampleColouredSettings>& table();
 };
 

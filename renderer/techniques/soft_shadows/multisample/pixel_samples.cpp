@@ -8,13 +8,16 @@
 
 namespace limen::techniques {
 
-PixelSamples::PixelSamples(frame::Frame& frame, int samples, frame::Raster raster, bool listing) {
+PixelSamples::PixelSamples(frame::Frame& frame, int samples, frame::Raster raster,
+                           const SurfaceSamples* surfaces) {
   if (frame::chosenRaster(raster, frame.context()) == frame::Raster::Compute) {
-    compute_.emplace(frame, frame::standardSamplePlaces(samples));
+    const SurfaceSamples given = surfaces ? *surfaces : SurfaceSamples{};
+    compute_.emplace(frame, frame::standardSamplePlaces(samples), given.search,
+                     frame::SameSurface{given.tolerance, given.angleDeg});
     return;
   }
   driver_.emplace(frame, samples);
-  if (!listing) return;
+  if (!surfaces) return;
   gl::ProgramCache& programs = frame.context().programs();
   const int64_t pixels = int64_t{frame.sizePx().x} * frame.sizePx().y;
   listed_.emplace(Listed{programs.compute("renderer/frame/sample_list_groups.comp.glsl", {{"EMPTY", "1"}}),

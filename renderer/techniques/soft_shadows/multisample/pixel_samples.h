@@ -5,6 +5,7 @@
 
 #include "renderer/frame/sample_raster.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
+#include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
 
 namespace limen::techniques {
 
@@ -12,8 +13,8 @@ namespace limen::techniques {
 /// the triangle behind their centres.
 class PixelSamples {
  public:
-  /// `listing`: list(), marks() and ids() are needed. Always true of the compute rasteriser.
-  PixelSamples(frame::Frame& frame, int samples, frame::Raster raster, bool listing);
+  /// `surfaces`: list(), marks() and ids() are needed, for these. The compute rasteriser always has them.
+  PixelSamples(frame::Frame& frame, int samples, frame::Raster raster, const SurfaceSamples* surfaces);
 
   void draw(frame::Frame& frame, const std::string& pass) const;
 

@@ -126,11 +126,12 @@ const SettingsTable<PerceptualBudget>& PerceptualBudget::table() {
       Binding(&S::least, "least", kBudgets, "",
               "Micro-occluders allowed per pixel where errors are least visible", kOpenError)
           .formerly({"perceptual_budget"}),
-      {&S::map, "map",
-       "Threshold map: the single one of Schwarz 2009, section 9.4, below which errors may be visible, or "
-       "the "
-       "one combined from frequency bands by the predictor",
-       kOpenError},
+      Binding(
+          &S::thresholdMap, "threshold_map",
+          "Threshold map: a single one, below which errors may be visible; the one combined from frequency "
+          "bands by the predictor; or the single one with the settings of Schwarz 2009, section 9.4",
+          kOpenError)
+          .formerly({"map"}),
       Binding(&S::error, "error", Range{0.0, 16.0}, "",
               "Error of the visibility with one micro-occluder per axis (c); with r per axis it is c / r",
               kOpenError)

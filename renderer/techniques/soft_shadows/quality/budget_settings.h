@@ -63,20 +63,23 @@ struct PaintedBudget {
   BudgetRange range() const { return {black, white}; }
 };
 
-/// Thresholds that a perceptual budget is kept below.
+/// Threshold map that a perceptual budget keeps errors below, with its default settings.
 enum class BudgetThresholds {
-  Single,  ///< the map of Schwarz 2009, section 9.4: larger, and not safe
-  Bands    ///< combined from frequency bands by the predictor
+  Single,       ///< one threshold for all frequencies: larger, and not safe
+  Bands,        ///< combined from frequency bands by the predictor
+  Schwarz2009,  ///< Single, with the thesis's settings
 };
-constexpr EnumNames<BudgetThresholds, 2> enumNames(BudgetThresholds) {
-  return {{{{BudgetThresholds::Single, "single"}, {BudgetThresholds::Bands, "bands"}}}};
+constexpr EnumNames<BudgetThresholds, 3> enumNames(BudgetThresholds) {
+  return {{{{BudgetThresholds::Single, "single"},
+            {BudgetThresholds::Bands, "bands"},
+            {BudgetThresholds::Schwarz2009, "schwarz_2009"}}}};
 }
 
 struct PerceptualBudget {
   static constexpr const char *kKind = "perceptual",
                               *kSummary = "enough to keep errors below a threshold map";
   int64_t most = 256, least = 25;
-  BudgetThresholds map = BudgetThresholds::Single;
+  BudgetThresholds thresholdMap = BudgetThresholds::Single;
   double error = 2.0;       ///< of the visibility with one micro-occluder per axis
   double thresholds = 1.0;  ///< multiple of the visible increment
   std::string display = "schwarz_2009";

@@ -79,7 +79,7 @@ float filteredLevel(vec4 p, Area area) {
   float z[4];
   for (int i = 0; i < 4; ++i) {
     const ivec2 texel = clamp(low + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size - 1));
-    z[i] = min(texelFetch(minimumMap, texel, level).x, p.z);
+    z[i] = min(minimumDepth(texel, level), p.z);
   }
   fetchCount += 4u;
   const vec2 part = at - vec2(low);

@@ -7,8 +7,13 @@
 #include "renderer/techniques/soft_shadows/quality/work_list.glsl"
 
 layout(local_size_x = kWorkListGroup) in;
+#if MAP_LAYERS > 1
+layout(binding = kSplitSearchAreasUnit) uniform usampler2DArray searchAreas;
+layout(binding = kSplitLevelMapUnit) uniform sampler2DArray levelMap;
+#else
 layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
 layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
+#endif
 
 layout(std430, binding = kOrderWorkBinsBuffer) restrict buffer Bins { uint binCounts[kWorkBins], binFilled[kWorkBins]; };
 #ifdef SCATTER
@@ -25,11 +30,21 @@ float occludersAt(uvec4 area, int level) {
   return float(count.x) * float(count.y);
 }
 
-uint binOf(ivec2 pixel) {
-  const uvec4 area = texelFetch(searchAreas, pixel, 0);
-  const float level = texelFetch(levelMap, pixel, 0).x;
+float occludersAround(uvec4 area, float level) {
   const int finer = int(level), coarser = int(ceil(level));
-  const float occluders = occludersAt(area, finer) + (coarser > finer ? occludersAt(area, coarser) : 0.0);
+  return occludersAt(area, finer) + (coarser > finer ? occludersAt(area, coarser) : 0.0);
+}
+
+uint binOf(ivec2 pixel) {
+#if MAP_LAYERS > 1
+  float occluders = 0.0;
+  for (int layer = 0; layer < MAP_LAYERS; ++layer) {
+    const float level = texelFetch(levelMap, ivec3(pixel, layer), 0).x;
+    if (level >= 0.0) occluders += occludersAround(texelFetch(searchAreas, ivec3(pixel, layer), 0), level);
+  }
+#else
+  const float occluders = occludersAround(texelFetch(searchAreas, pixel, 0), texelFetch(levelMap, pixel, 0).x);
+#endif
   return uint(clamp(2.0 * log2(occluders), 0.0, float(kWorkBins - 1u)));
 }
 

@@ -5,8 +5,7 @@
 
 #include <optional>
 
-#include "perception/band_thresholds/band_threshold_gpu.h"
-#include "perception/threshold_maps/threshold_map_gpu.h"
+#include "perception/thresholds/thresholds_gpu.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
 
@@ -15,6 +14,15 @@ namespace {
 
 const char* const kPerceptualShader = "renderer/techniques/soft_shadows/quality/perceptual_budget.comp.glsl";
 const char* const kPerceptualPass = "soft_shadows/budget_map";
+
+perception::ThresholdGpuSettings thresholdSettings(BudgetThresholds wanted) {
+  using perception::PredictorModel;
+  if (wanted == BudgetThresholds::Bands) return perception::BandThresholdSettings{};
+  const bool thesis = wanted == BudgetThresholds::Schwarz2009;
+  return perception::SingleOnGpu{perception::ThresholdMapSettings::preset(thesis ? PredictorModel::Schwarz2009
+                                                                                 : PredictorModel::Limen2026),
+                                 {}};
+}
 
 class PerceptualBudgetDriver : public BudgetDriver {
  public:
@@ -30,21 +38,16 @@ class PerceptualBudgetDriver : public BudgetDriver {
   void prepare(frame::Frame& frame) override {
     map_.emplace(gl::Format::R32F, frame.sizePx());
     frame.passes().setBytesHeld(kPerceptualPass, map_->bytes());
-    if (settings_.map == BudgetThresholds::Bands) {
-      bands_.emplace(frame.context(), frame.sizePx(), display_, perception::BandThresholdSettings{});
-      frame.passes().setBytesHeld("band_thresholds/levels", bands_->bytesHeld());
-    } else {
-      thresholdMap_.emplace(frame.context(), frame.sizePx(), display_, perception::ThresholdMapSettings{});
-      frame.passes().setBytesHeld("threshold_map/levels", thresholdMap_->bytesHeld());
-    }
+    maker_ = perception::makeThresholds(frame.context(), frame.sizePx(), display_,
+                                        thresholdSettings(settings_.thresholdMap));
+    frame.passes().setBytesHeld(perception::kThresholdLevelsPass, maker_->bytesHeld());
     program_ = &frame.context().programs().compute(kPerceptualShader);
   }
 
   const gl::Texture& make(frame::Frame& frame) override {
     const gl::Texture& direct = frame.get<frame::Shaded>(direct_).texture();
     const gl::Texture& picture = frame.get<frame::Shaded>(picture_).texture();
-    const gl::Texture& thresholds =
-        bands_ ? bands_->run(picture, &frame.passes()) : thresholdMap_->run(picture, &frame.passes());
+    const gl::Texture& thresholds = maker_->run(picture, &frame.passes());
     const auto scope = frame.passes().open(kPerceptualPass);
     program_->set("sizePx", frame.sizePx());
     program_->set("whiteCdM2", static_cast<float>(display_.whiteLevelCdM2() - display_.blackLevelCdM2()));
@@ -60,7 +63,7 @@ class PerceptualBudgetDriver : public BudgetDriver {
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {
-    return {{"budget_thresholds", bands_ ? &bands_->map() : &thresholdMap_->map()}};
+    return {{"budget_thresholds", &maker_->map()}};
   }
 
  private:
@@ -68,8 +71,7 @@ class PerceptualBudgetDriver : public BudgetDriver {
   perception::DisplayProfile display_;
   frame::ShadedSetting picture_, direct_;
   std::optional<gl::Texture> map_;
-  std::optional<perception::ThresholdMapGpu> thresholdMap_;  // or
-  std::optional<perception::BandThresholdGpu> bands_;
+  std::unique_ptr<perception::ThresholdMaker> maker_;
   const gl::Program* program_ = nullptr;
 };
 

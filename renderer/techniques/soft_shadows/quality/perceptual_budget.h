@@ -15,8 +15,8 @@ namespace limen::techniques {
 /// wrong by D c / r. It stays below `thresholds` times the pixel's threshold T from
 ///   r = c D / (thresholds T)
 /// on, clamped between the square roots of `least` and `most`. T is the threshold map of the
-/// unshadowed picture (ambient and direct light) on `display`, with the map's default settings: the single
-/// map of the thesis, below which errors may be visible, or one combined from frequency bands.
+/// unshadowed picture (ambient and direct light) on `display`, with the map's default settings: a single map
+/// (castleCSF, or as in the thesis), below which errors may be visible, or one combined from frequency bands.
 ///
 /// That errors are proportional to 1 / r was measured: over sphere_grid, columns_hall, textured_ground and
 /// foliage with maps of 256 texels, 95 % of the processed pixels of blended levels are within 1.9 / r of an

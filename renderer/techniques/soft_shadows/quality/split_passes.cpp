@@ -27,17 +27,20 @@ const gl::Texture& cameraDepth(frame::Frame& frame) {
 }  // namespace
 
 SplitRunner::SplitRunner(frame::Frame& frame, const VisibilityPass& pass, const LevelOfQuality& quality,
-                         bool smooths)
+                         bool smooths, int layers)
     : quality_(quality),
       smooths_(smooths),
-      search_(frame, smooths, quality.orders(), quality.lanes()),
+      search_(frame, smooths, quality.orders(), quality.lanes(), layers),
       classify_(pass.program(frame, false, classifyDefines(smooths))),
       gather_(pass.program(frame, false, gatherDefines(quality))) {
   gl::ProgramCache& programs = frame.context().programs();
   if (smooths_) smooth_ = &programs.compute(kSmoothShader);
   if (quality_.orders()) {
-    countBins_ = &programs.compute(kOrderShader);
-    scatter_ = &programs.compute(kOrderShader, {{"SCATTER", "1"}});
+    gl::ShaderDefines defines;
+    if (layers > 1) defines["MAP_LAYERS"] = std::to_string(layers);
+    countBins_ = &programs.compute(kOrderShader, defines);
+    defines["SCATTER"] = "1";
+    scatter_ = &programs.compute(kOrderShader, defines);
   }
   frame.passes().setBytesHeld(pass.name() + "/classify", pass.visibility().bytes() + search_.bytes());
 }

@@ -14,8 +14,10 @@ namespace limen::techniques {
 /// 5.2.1.
 class SplitRunner {
  public:
-  /// Compiles and allocates; states the bytes held. `smooths`: there are levels to smooth.
-  SplitRunner(frame::Frame& frame, const VisibilityPass& pass, const LevelOfQuality& quality, bool smooths);
+  /// Compiles and allocates; states the bytes held. `smooths`: there are levels to smooth. `layers`: of
+  /// the map, as for SplitSearch.
+  SplitRunner(frame::Frame& frame, const VisibilityPass& pass, const LevelOfQuality& quality, bool smooths,
+              int layers);
 
   /// Makes what bindInputs() binds.
   void makeInputs(frame::Frame& frame) const;

@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <cassert>
 #include <vector>
 
 #include "renderer/techniques/soft_shadows/quality/quality_bindings.h"
@@ -23,11 +24,16 @@ gl::Format levelFormat(bool smooths) { return smooths ? gl::Format::RG32F : gl::
 
 }  // namespace
 
-SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes)
-    : areas_(gl::Format::RGBA16UI, frame.sizePx()),
-      levels_(levelFormat(smooths), frame.sizePx()),
+SplitSearch::SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes, int layers)
+    : areas_(gl::Format::RGBA16UI, frame.sizePx(), 1, layers > 1 ? layers : 0),
+      levels_(levelFormat(smooths), frame.sizePx(), 1, layers > 1 ? layers : 0),
       headers_{emptyHeader(lanes), emptyHeader(lanes)},
       work_(int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr) {
+  assert(layers == 1 || !smooths);
+  if (layers > 1) {
+    firstAreas_.emplace(areas_.view(0));
+    firstLevels_.emplace(levels_.view(0));
+  }
   if (smooths) halfSmoothed_.emplace(levelFormat(smooths), frame.sizePx());
   if (orders) {
     const std::vector<uint32_t> none(size_t{2} * kWorkBins, 0);

@@ -6,13 +6,19 @@
 #include "renderer/techniques/soft_shadows/quality/work_list.glsl"
 
 #ifdef SPLIT_CLASSIFY
-layout(binding = kSplitAreasImage, rgba16ui) uniform writeonly uimage2D outAreas;  // low, high
+// Areas: low, high. Levels: -1 where a layer has nothing to gather or levels are smoothed and the pixel is not processed.
+#if MAP_LAYERS > 1
+layout(binding = kSplitAreasImage, rgba16ui) uniform writeonly uimage2DArray outAreas;
+layout(binding = kSplitLevelsImage, r32f) uniform writeonly image2DArray outLevels;
+#else
+layout(binding = kSplitAreasImage, rgba16ui) uniform writeonly uimage2D outAreas;
 #ifdef SMOOTH
 layout(binding = kSplitCameraDepthUnit) uniform sampler2D cameraDepth;
-layout(binding = kSplitLevelsImage, rg32f) uniform writeonly image2D outLevels;    // level (-1: not processed), camera depth
+layout(binding = kSplitLevelsImage, rg32f) uniform writeonly image2D outLevels;    // level, camera depth
 layout(binding = kSplitHalfSmoothedImage, rg32f) uniform writeonly image2D outHalfSmoothed;
 #else
 layout(binding = kSplitLevelsImage, r32f) uniform writeonly image2D outLevels;
+#endif
 #endif
 
 // Of the next list, made empty here so that no copy has to be waited for.
@@ -21,6 +27,28 @@ layout(std430, binding = kNextWorkHeaderBuffer) restrict writeonly buffer NextWo
 shared uint processedLanes[2];
 shared uint firstSlot;
 
+#if MAP_LAYERS > 1
+void noteArea(ivec2 pixel, Area area, float level) {
+  imageStore(outLevels, ivec3(pixel, mapLayer), vec4(level));
+  if (level >= 0.0) imageStore(outAreas, ivec3(pixel, mapLayer), uvec4(area.low, area.high));
+}
+
+bool classify(ivec2 pixel) {
+  const vec4 receiver = loadReceiver(pixel);
+  float visibility = 1.0;
+  bool processed = false;
+  readBudget(pixel);
+  if (receiver.w >= 0.0) {
+    processed = findAreas(pixel, visibility);
+    if (!processed) visibility = visibilityOfNone(receiver, pixel, visibility);
+  }
+  if (!processed) store(pixel, visibility);
+#ifdef COUNT
+  if (processed) imageStore(outCounts, pixel, uvec4(0u, 0u, fetchCount, 0u));
+#endif
+  return processed;
+}
+#else
 bool classify(ivec2 pixel) {
   const vec4 receiver = loadReceiver(pixel);
   Area area;
@@ -61,6 +89,7 @@ bool classify(ivec2 pixel) {
 #endif
   return true;
 }
+#endif
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -90,6 +119,18 @@ void main() {
   listedPixels[firstSlot + rank] = uint(pixel.x) | (uint(pixel.y) << 16);
 }
 #else
+#if MAP_LAYERS > 1
+layout(binding = kSplitSearchAreasUnit) uniform usampler2DArray searchAreas;
+layout(binding = kSplitLevelMapUnit) uniform sampler2DArray levelMap;
+
+float notedArea(ivec2 pixel, int layer, out Area area) {
+  const float level = texelFetch(levelMap, ivec3(pixel, layer), 0).x;
+  if (level < 0.0) return level;
+  const uvec4 bounds = texelFetch(searchAreas, ivec3(pixel, layer), 0);
+  area = Area(ivec2(bounds.xy), ivec2(bounds.zw));
+  return level;
+}
+#else
 layout(binding = kSplitSearchAreasUnit) uniform usampler2D searchAreas;
 layout(binding = kSplitLevelMapUnit) uniform sampler2D levelMap;
 
@@ -97,6 +138,7 @@ Area searchedArea(ivec2 pixel) {
   const uvec4 area = texelFetch(searchAreas, pixel, 0);
   return Area(ivec2(area.xy), ivec2(area.zw));
 }
+#endif
 
 #if LANES > 1
 // Of the pixels of a group.
@@ -117,10 +159,23 @@ void main() {
   }
   memoryBarrierShared();
   barrier();
+  float visibility = 0.0;
+#if MAP_LAYERS > 1
+  clearGathered();
+  if (listed) {
+    readBudget(pixel);
+    firstRow = int(lane);
+    rowStep = LANES;
+    if (lane == 0u) hideBehindPlane(loadReceiver(pixel));
+    if (!gatherLayers(pixel)) atomicOr(sharedCutShort[slot], 1u);
+  }
+  joinLanes();
+  if (listed) visibility = gatheredVisibility();
+#else
   vec4 receiver = vec4(0.0);
   Area area = Area(ivec2(0), ivec2(0));
   int first = 0, last = -1;
-  float weight = 0.0, visibility = 0.0;
+  float weight = 0.0;
   bool within = true;
   if (listed) {
     receiver = loadReceiver(pixel);
@@ -150,6 +205,7 @@ void main() {
     barrier();  // before what is shared is written again
 #endif
   }
+#endif
 #ifdef COUNT
   atomicAdd(sharedCounts[slot][0], occluderCount);
   atomicAdd(sharedCounts[slot][1], fetchCount);
@@ -181,6 +237,15 @@ void main() {
 #ifdef COUNT
   fetchCount = imageLoad(outCounts, pixel).z;
 #endif
+#if MAP_LAYERS > 1
+  clearGathered();
+  hideBehindPlane(receiver);
+  const bool whole = gatherLayers(pixel);
+#ifdef KEEP_MASKS
+  if (whole) keepGathered(pixel);
+#endif
+  store(pixel, whole ? gatheredVisibility() : uintBitsToFloat(0x7fc00000u));
+#else
 #ifdef KEEP_MASKS
   coveredBefore(receiver, pixel);
 #endif
@@ -189,6 +254,7 @@ void main() {
   visibility = visibilityKept(pixel, visibility);
 #endif
   store(pixel, visibility);
+#endif
 }
 #endif
 #endif

@@ -16,8 +16,9 @@ namespace limen::techniques {
 class SplitSearch {
  public:
   /// `smooths`, `orders`: room for smoothing levels, and for ordering the list. `lanes`: invocations per
-  /// pixel of the passes over the list.
-  SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes);
+  /// pixel of the passes over the list. `layers`: of the map; several have areas and levels each, and are not
+  /// smoothed.
+  SplitSearch(frame::Frame& frame, bool smooths, bool orders, int lanes, int layers);
 
   /// Goes on to an empty list and binds for the pass that fills it, which makeVisible() ends.
   void bindForClassify();
@@ -34,15 +35,16 @@ class SplitSearch {
   /// Makes writes of the last pass visible to later ones.
   static void makeVisible();
 
-  /// RGBA16UI: first texel and one past the last texel, of processed pixels only.
-  const gl::Texture& areas() const { return areas_; }
-  /// Level in the first channel, of processed pixels; -1 for others if levels are smoothed. R32F, or
-  /// RG32F with the camera's depth.
-  const gl::Texture& levels() const { return levels_; }
+  /// RGBA16UI: first texel and one past the last texel, of processed pixels only. Of the first layer.
+  const gl::Texture& areas() const { return firstAreas_ ? *firstAreas_ : areas_; }
+  /// Level in the first channel, of processed pixels; -1 for others if levels are smoothed or a layer has
+  /// nothing to gather. R32F, or RG32F with the camera's depth. Of the first layer.
+  const gl::Texture& levels() const { return firstLevels_ ? *firstLevels_ : levels_; }
   int64_t bytes() const;
 
  private:
   gl::Texture areas_, levels_;
+  std::optional<gl::Texture> firstAreas_, firstLevels_;  // of several layers
   std::optional<gl::Texture> halfSmoothed_;
   /// Another list, in order, and its bins.
   struct Order {

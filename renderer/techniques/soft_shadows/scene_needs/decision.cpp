@@ -42,7 +42,7 @@ std::vector<size_t> indicesOf(std::span<const Tried> tried) {
 std::vector<size_t> mostExact(std::span<const Tried> tried, const std::vector<size_t>& among) {
   const ErrorEstimate& best =
       tried[leastBy(among, [&](size_t i) { return tried[i].error.meanSquare; })].error;
-  return those(among, [&](size_t i) { return tried[i].error.rmse() <= best.rmse() + best.rmseNoise(); });
+  return those(among, [&](size_t i) { return tried[i].error.value() <= best.value() + best.noise(); });
 }
 
 /// `a` is no worse than `b` in time and error, and better in one of them.
@@ -64,28 +64,28 @@ TimeEstimate estimateTime(std::vector<double> framesMs) {
 double margin(std::span<const Tried> tried) {
   std::vector<double> shares;
   for (const Tried& one : tried)
-    if (one.error.rmse() > 0.0) shares.push_back(one.error.highRmse() / one.error.rmse() - 1.0);
+    if (one.error.value() > 0.0) shares.push_back(one.error.high() / one.error.value() - 1.0);
   if (shares.empty()) return 0.0;
   std::sort(shares.begin(), shares.end());
   return quantile(shares, 0.5);
 }
 
-bool isWithin(const ErrorEstimate& error, double targetRmse, double margin) {
-  return error.rmse() * (1.0 + margin) <= targetRmse;
+bool isWithin(const ErrorEstimate& error, double target, double margin) {
+  return error.value() * (1.0 + margin) <= target;
 }
 
-std::vector<size_t> eligible(std::span<const Tried> tried, double targetRmse) {
+std::vector<size_t> eligible(std::span<const Tried> tried, double target) {
   const std::vector<size_t> all = indicesOf(tried);
   const double allowed = margin(tried);
   const std::vector<size_t> within =
-      those(all, [&](size_t i) { return isWithin(tried[i].error, targetRmse, allowed); });
+      those(all, [&](size_t i) { return isWithin(tried[i].error, target, allowed); });
   return within.empty() ? mostExact(tried, all) : within;
 }
 
-Verdict decide(std::span<const Tried> tried, double targetRmse) {
+Verdict decide(std::span<const Tried> tried, double target) {
   assert(!tried.empty());
-  Verdict out{.eligible = eligible(tried, targetRmse)};
-  out.withinTarget = isWithin(tried[out.eligible.front()].error, targetRmse, margin(tried));
+  Verdict out{.eligible = eligible(tried, target)};
+  out.withinTarget = isWithin(tried[out.eligible.front()].error, target, margin(tried));
   const auto medianMs = [&](size_t i) { return tried[i].time.medianMs; };
   const TimeEstimate& cheapest = tried[leastBy(out.eligible, medianMs)].time;
   const std::vector<size_t> equalTimes =

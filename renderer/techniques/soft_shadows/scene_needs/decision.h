@@ -34,17 +34,17 @@ struct Verdict {
   std::vector<size_t> eligible;
 };
 
-/// By what share the RMSE of a picture with many more pixels may exceed the estimate: the median over the
-/// candidates of highRmse() / rmse() - 1. One figure for all of them, so that less error is never further
+/// By what share the error of a picture with many more pixels may exceed the estimate: the median over the
+/// candidates of high() / value() - 1. One figure for all of them, so that less error is never further
 /// from a target.
 double margin(std::span<const Tried> tried);
-bool isWithin(const ErrorEstimate& error, double targetRmse, double margin);
+bool isWithin(const ErrorEstimate& error, double target, double margin);
 /// See Verdict. Needs errors, not times.
-std::vector<size_t> eligible(std::span<const Tried> tried, double targetRmse);
+std::vector<size_t> eligible(std::span<const Tried> tried, double target);
 /// Of the eligible candidates the cheapest; of several whose times spread into its own, the one with the
 /// smallest error; of several whose errors differ by less than the references' noise, the cheapest again. No
 /// other eligible candidate takes less time and errs less. `tried` must not be empty.
-Verdict decide(std::span<const Tried> tried, double targetRmse);
+Verdict decide(std::span<const Tried> tried, double target);
 /// Those than which no other takes less time and errs less, fastest first.
 std::vector<size_t> front(std::span<const Tried> tried);
 

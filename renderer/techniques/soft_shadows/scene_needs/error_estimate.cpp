@@ -22,10 +22,10 @@ double meanAt(const ReferencePair& truth, size_t i) {
 
 }  // namespace
 
-double ErrorEstimate::rmse() const { return rootOf(meanSquare); }
-double ErrorEstimate::lowRmse() const { return rootOf(meanSquare - kLimits * standardError); }
-double ErrorEstimate::highRmse() const { return rootOf(meanSquare + kLimits * standardError); }
-double ErrorEstimate::rmseNoise() const { return rootOf(meanSquare + kLimits * samplingNoise) - rmse(); }
+double ErrorEstimate::value() const { return rootOf(meanSquare); }
+double ErrorEstimate::low() const { return rootOf(meanSquare - kLimits * standardError); }
+double ErrorEstimate::high() const { return rootOf(meanSquare + kLimits * standardError); }
+double ErrorEstimate::noise() const { return rootOf(meanSquare + kLimits * samplingNoise) - value(); }
 
 double ReferencePair::noise() const {
   double sum = 0.0, count = 0.0;

@@ -10,7 +10,8 @@ namespace limen::techniques {
 /// Mean squared error of a visibility over receivers, against two references that sample the light
 /// independently of each other. For a product c and references a and b it is the mean of (c - a)(c - b): the
 /// references' own errors are as often of equal as of opposite sign, so that they add nothing on average,
-/// where the mean of (c - a)^2 would include a's variance.
+/// where the mean of (c - a)^2 would include a's variance. Visible differences (JndErrors) are kept in the
+/// same form, as the square of what the metric says.
 struct ErrorEstimate {
   double meanSquare = 0.0;     ///< below 0 by chance where a product is exact
   double samplingNoise = 0.0;  ///< standard error of meanSquare by the references' samples
@@ -19,12 +20,13 @@ struct ErrorEstimate {
   double standardError = 0.0;
   int64_t pixels = 0;
 
-  double rmse() const;
-  /// Limits of the RMSE of a picture with many more pixels, some 95 % together: 2 standard errors either way.
-  double lowRmse() const;
-  double highRmse() const;
-  /// By how much the references' samples alone may have changed the RMSE.
-  double rmseNoise() const;
+  /// The root: an RMSE, or JND.
+  double value() const;
+  /// Limits of that of a picture with many more pixels, some 95 % together: 2 standard errors either way.
+  double low() const;
+  double high() const;
+  /// By how much the references' samples alone may have changed it.
+  double noise() const;
 };
 
 /// The truth about a picture, known up to sampling.

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/soft_shadows/scene_needs/jnd_error.h"
 
 namespace limen::techniques {
 namespace {
@@ -66,14 +68,20 @@ class Search {
   /// Errors and times, then second times of those that decide, backwards, so that a drifting clock rate
   /// affects all alike.
   void run(std::span<const Candidate> candidates) {
-    out_.pictureSizePx = smallSize(frame_.sizePx(), options_.picturePx);
+    const auto* jnd = std::get_if<JndTarget>(&options_.target);
+    out_.pictureSizePx = jnd ? frame_.sizePx() : smallSize(frame_.sizePx(), options_.picturePx);
     const Renderings small(frame_, out_.pictureSizePx);
     const ReferencePair truth = small.references(options_.reference.samples, 1);
-    out_.referenceNoise = truth.noise();
+    std::optional<JndErrors> visible;
+    if (jnd) visible.emplace(frame_, *jnd, truth);
+    out_.referenceNoise = visible ? visible->noise() : truth.noise();
+    const auto errorOf = [&](const Image& product) {
+      return visible ? visible->estimate(product) : estimateError(product, truth);
+    };
     for (const Candidate& candidate : candidates) {
       std::string obstacle = late() ? "no time was left" : obstacleTo(candidate, frame_.scene());
       try {
-        if (obstacle.empty()) measure(candidate, small, truth);
+        if (obstacle.empty()) measure(candidate, small, errorOf);
       } catch (const Error& error) {
         obstacle = error.message();
       }
@@ -91,15 +99,16 @@ class Search {
     return !out_.tried.empty() && passed.count() > options_.seconds;
   }
 
-  void measure(const Candidate& candidate, const Renderings& small, const ReferencePair& truth) {
-    const ErrorEstimate error = estimateError(small.render(candidate), truth);
+  template <class ErrorOf>
+  void measure(const Candidate& candidate, const Renderings& small, const ErrorOf& errorOf) {
+    const ErrorEstimate error = errorOf(small.render(candidate));
     framesMs_.push_back(clock_.framesMs(candidate));
     out_.tried.push_back({candidate, error, estimateTime(framesMs_.back())});
   }
 
   void timeAgain() {
     std::vector<Tried>& tried = out_.tried;
-    const std::vector<size_t> deciding = eligible(tried, options_.targetRmse);
+    const std::vector<size_t> deciding = eligible(tried, largestOf(options_.target));
     double cheapestMs = tried[deciding.front()].time.medianMs;
     for (const size_t i : deciding) cheapestMs = std::min(cheapestMs, tried[i].time.medianMs);
     for (auto i = deciding.rbegin(); i != deciding.rend() && !late(); ++i) {
@@ -118,11 +127,16 @@ class Search {
   steady_clock::time_point start_ = steady_clock::now();
 };
 
-FullSizeCheck checkAtFullSize(frame::Frame& frame, const Candidate& chosen, const NeedsReference& reference,
+FullSizeCheck checkAtFullSize(frame::Frame& frame, const Candidate& chosen, const NeedsOptions& options,
                               CandidateClock& clock) {
   const Renderings full(frame, frame.sizePx());
-  const ReferencePair truth = full.references(reference.checkSamples, 3);
+  const ReferencePair truth = full.references(options.reference.checkSamples, 3);
   const Image product = full.render(chosen);
+  if (const auto* jnd = std::get_if<JndTarget>(&options.target)) {
+    JndErrors visible(frame, *jnd, truth);
+    return {visible.estimate(product), visible.noise(), estimateTime(clock.framesMs(chosen)),
+            errorMap(product, truth)};
+  }
   return {estimateError(product, truth), truth.noise(), estimateTime(clock.framesMs(chosen)),
           errorMap(product, truth)};
 }
@@ -144,9 +158,10 @@ SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candid
   SceneNeedsFound out;
   out.times = clock.label();
   out.reference = options.reference;
+  out.target = options.target;
   Search(frame, options, clock, out).run(candidates);
-  out.verdict = decide(out.tried, options.targetRmse);
-  out.check = checkAtFullSize(frame, out.chosen().candidate, options.reference, clock);
+  out.verdict = decide(out.tried, largestOf(options.target));
+  out.check = checkAtFullSize(frame, out.chosen().candidate, options, clock);
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "renderer/techniques/soft_shadows/scene_needs/candidate_clock.h"
 #include "renderer/techniques/soft_shadows/scene_needs/decision.h"
+#include "renderer/techniques/soft_shadows/scene_needs/target.h"
 
 namespace limen::techniques {
 
@@ -19,8 +20,9 @@ struct NeedsReference {
 };
 
 struct NeedsOptions {
-  double targetRmse = 0.02;
-  int picturePx = 50000;  ///< about as many pixels has the small picture, but no more than the full one
+  NeedsTarget target = {};
+  /// About as many pixels has the small picture, but no more than the full one. For an RMSE.
+  int picturePx = 50000;
   NeedsReference reference = {};
   double seconds = std::numeric_limits<double>::infinity();  ///< after that, no further candidate is tried
 };
@@ -43,6 +45,7 @@ struct SceneNeedsFound {
   glm::ivec2 pictureSizePx{0};
   FullSizeCheck check;
   std::string times;  ///< what they are
+  NeedsTarget target;
 
   const Tried& chosen() const { return tried[verdict.chosen]; }
 };
@@ -55,6 +58,9 @@ struct SceneNeedsFound {
 /// points estimates that over all points. (With maps reduced along with the picture it would not: the error
 /// grows with a texel's width. Level smoothing and budget maps do look at neighbours; no built-in candidate
 /// has either.)
+///
+/// What is seen of an error does depend on the picture's size and on neighbours: for a target in JND there is
+/// no small picture, candidates are compared at full size.
 ///
 /// Throws Error if no candidate can be tried.
 SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candidates,

@@ -64,7 +64,7 @@ void LoopInShading::prepare(frame::Frame& frame) {
 
 void LoopInShading::configure(const gl::Program& program, frame::Frame& frame) {
   const frame::ShadowMapSettings& map = maps_.maps()[0];
-  const frame::LightFrustum& frustum = search_.bind(frame, map, 0);
+  const frame::LightFrustum& frustum = search_.bind(frame, {&map, 1}, 0);
   frame::configureShading(program, frame, shading_);
   setMapUniforms(program, frame, frustum, map);
   const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
@@ -78,7 +78,7 @@ void LoopInShading::configure(const gl::Program& program, frame::Frame& frame) {
 void LoopInShading::render(frame::Frame& frame) {
   // Made before the pass begins.
   frame.get<frame::TriangleIds>();
-  search_.bind(frame, maps_.maps()[0], 0);
+  search_.bind(frame, maps_.mapsOf(0), 0);
   const auto scope = frame.passes().open(kShadePass);
   if (stage_ != VisibilityLoop::Compute) {
     drawFragments(frame);

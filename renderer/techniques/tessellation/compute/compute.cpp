@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tessellation on the fly in compute shaders, CudaTess of Schwarz 2009, section 7.6 (SC-69 to SC-71, 73, 77):
+// factors, common factors and counts, prefix sums, vertices, indices, one indirect draw. Differences from the
+// thesis:
+// - The host reads no totals back to resize its buffers: they have a declared capacity, and patches that do
+// not fit
+//   are left out and counted.
+// - `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in the offsets; with
+//   `patch_parallel` a work group, not four threads, shares a patch.
+// - Positions along sides are bitwise the same for both patches by the order of the sums (evaluate.glsl).
+// - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
+#include <epoxy/gl.h>
+
+#include "renderer/compute/prefix_sum.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/factor_pass.h"
+#include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_view.h"
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+enum class SlotForm { VertexParallel, PatchParallel };
+constexpr EnumNames<SlotForm, 2> enumNames(SlotForm) {
+  return {{{{SlotForm::PatchParallel, "patch_parallel"}, {SlotForm::VertexParallel, "vertex_parallel"}}}};
+}
+
+struct ComputeTessellationSettings {
+  FactorSettings tessellation;
+  SlotForm form = SlotForm::VertexParallel;
+  compute::ScanForm scan = compute::ScanForm::Auto;
+  int64_t capacity = 1 << 20;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ComputeTessellationSettings>& table() {
+    using S = ComputeTessellationSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::tessellation),
+        {&S::form, "form", "What an invocation or group makes: one vertex, or one patch",
+         "Schwarz 2009, section 7.6.1"},
+        {&S::scan, "scan", "How offsets are summed"},
+        {&S::capacity,
+         "capacity",
+         {4, 1 << 26},
+         "vertices",
+         "Vertices that the buffers hold; indices: four times as many"},
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+constexpr int64_t kIndicesPerVertex = 4;
+
+class ComputeTessellation : public Technique {
+ public:
+  using Settings = ComputeTessellationSettings;
+  explicit ComputeTessellation(const Settings& settings) : settings_(settings) {}
+  ~ComputeTessellation() override {
+    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
+  }
+
+  void prepare(frame::Frame& frame) override {
+    const std::string folder = "renderer/techniques/tessellation/compute/";
+    patches_.emplace(frame.scene(), frame.gpuScene().anchor());
+    factors_.emplace(frame, *patches_, settings_.tessellation);
+    scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
+    picture_.emplace(frame, settings_.shading, "tessellation");
+    gl::ShaderDefines defines = patches_->defines();
+    if (settings_.form == SlotForm::PatchParallel) defines["PATCH_PARALLEL"] = "1";
+    gl::ProgramCache& programs = frame.context().programs();
+    totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
+    verticesProgram_ = &programs.compute(folder + "vertices.comp.glsl", defines);
+    indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
+    drawProgram_ =
+        &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
+    offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
+    totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
+    vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
+    indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
+    makeVertexArray();
+    frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
+    frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
+    frame.passes().setBytesHeld("tessellation/vertices", vertices_->bytes());
+    frame.passes().setBytesHeld("tessellation/indices", indices_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    factors_->run(frame);
+    {
+      const auto scope = frame.passes().open("tessellation/scan");
+      scan_->run(factors_->counts(), *offsets_, patches_->count());
+      offsets_->bindStorage(kSlotOffsetsBuffer);
+      totals_->bindStorage(kTotalsBuffer);
+      totalsProgram_->use();
+      totalsProgram_->set("patchCount", patches_->count());
+      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
+      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      glDispatchCompute(1, 1, 1);
+      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+    patches_->bindStorage();
+    factors_->factors().bindStorage(kFactorsBuffer);
+    vertices_->bindStorage(kVerticesBuffer);
+    indices_->bindStorage(kIndicesBuffer);
+    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
+    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+    picture_->render(frame, [&] {
+      drawProgram_->use();
+      drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
+      glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
+      glBindVertexArray(vertexArray_);
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, totals_->id());
+      glDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT,
+                             reinterpret_cast<const void*>(offsetof(TessellationTotals, indices)));
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+      glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
+    });
+  }
+
+  const gl::Texture& product() const override { return picture_->texture(); }
+
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
+    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    auto out = std::make_shared<surfaces::TessellatedSurface>();
+    out->anchor = frame.gpuScene().anchor();
+    out->view = viewOf(frame);
+    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+      out->positions.push_back(vertex.position);
+      out->normals.push_back(vertex.normal);
+    }
+    out->triangles = surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+    const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+      surfaces::Factors& own = out->factors.emplace_back();
+      if (i >= totals.patches || factors[i] == 0) continue;
+      for (uint32_t side = 0; side < 4; ++side) own[side] = static_cast<int>(factors[i] >> 8 * side & 255U);
+      const surfaces::PatternPlan plan =
+          surfaces::patternOf(patches[i].domain, own, settings_.tessellation.cornerFix);
+      for (int slot = 0; slot < plan.vertices; ++slot) {
+        out->parameters.push_back(surfaces::domainPointOf(plan, slot));
+        out->patches.push_back(i);
+      }
+    }
+    return out;
+  }
+
+  std::vector<Counter> count(frame::Frame&) override {
+    const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
+    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
+    const std::vector<uint32_t> indices = indices_->read<uint32_t>(0, totals.indices);
+    double culled = 0.0, rungs[kRungs] = {};
+    for (const uint32_t packed : factors) culled += packed == 0;
+    for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
+    return {
+        {"patches_culled", culled},
+        {"patches_left_out", double(totals.overflow)},
+        {"tessellated_vertices", double(totals.vertices)},
+        {"tessellated_triangles", double(surfaces::stripTriangles(indices).size())},
+        {"tessellated_indices", double(totals.indices)},
+        {"tessellated_mib",
+         (double(totals.vertices) * sizeof(TessellatedVertex) + 4.0 * double(totals.indices)) / 1048576.0},
+        {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
+        {"normals_from_corners", rungs[kRungCornerPlane]},
+        {"normals_none", rungs[kRungNone]}};
+  }
+
+  static std::vector<Quantity> quantities() {
+    return {
+        {"patches_culled", "Patches culled", "patches", Direction::Neither},
+        {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
+        {"tessellated_vertices", "Vertices made", "vertices", Direction::LowerIsBetter},
+        {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
+        {"tessellated_indices", "Indices made", "indices", Direction::LowerIsBetter},
+        {"tessellated_mib", "Vertices and indices", "MiB", Direction::LowerIsBetter},
+        {"degenerate_normals", "Normals not given by the derivatives", "vertices", Direction::LowerIsBetter},
+        {"normals_from_corners", "Normals taken from a patch's corners", "vertices",
+         Direction::LowerIsBetter},
+        {"normals_none", "Vertices without a normal", "vertices", Direction::LowerIsBetter}};
+  }
+
+ private:
+  void makeVertexArray() {
+    glCreateVertexArrays(1, &vertexArray_);
+    const auto attribute = [&](GLuint location, bool whole, int components, size_t offset) {
+      if (whole) {
+        glVertexArrayAttribIFormat(vertexArray_, location, components, GL_UNSIGNED_INT,
+                                   static_cast<GLuint>(offset));
+      } else {
+        glVertexArrayAttribFormat(vertexArray_, location, components, GL_FLOAT, GL_FALSE,
+                                  static_cast<GLuint>(offset));
+      }
+      glVertexArrayAttribBinding(vertexArray_, location, 0);
+      glEnableVertexArrayAttrib(vertexArray_, location);
+    };
+    attribute(0, false, 3, offsetof(TessellatedVertex, position));
+    attribute(1, true, 1, offsetof(TessellatedVertex, material));
+    attribute(2, false, 3, offsetof(TessellatedVertex, normal));
+    glVertexArrayVertexBuffer(vertexArray_, 0, vertices_->id(), 0, sizeof(TessellatedVertex));
+    glVertexArrayElementBuffer(vertexArray_, indices_->id());
+  }
+
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
+    const auto scope = frame.passes().open(pass);
+    program.use();
+    program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
+    if (settings_.form == SlotForm::PatchParallel) {
+      const uint32_t rows = (patches_->count() + 65534) / 65535;
+      glDispatchCompute((patches_->count() + rows - 1) / rows, rows, 1);
+    } else {
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
+      glDispatchComputeIndirect(static_cast<GLintptr>(groups));
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  Settings settings_;
+  std::optional<PatchBuffers> patches_;
+  std::optional<FactorPass> factors_;
+  std::optional<compute::PrefixSum> scan_;
+  std::optional<SurfacePicture> picture_;
+  const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
+                    *drawProgram_ = nullptr;
+  std::optional<gl::Buffer> offsets_, totals_, vertices_, indices_;
+  uint32_t vertexArray_ = 0;
+};
+
+struct UniformFineSettings {
+  int segments = 64;
+  frame::ShadedSetting shading;
+  static const SettingsTable<UniformFineSettings>& table() {
+    using S = UniformFineSettings;
+    static const SettingsTable<S> kTable = {{&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
+                                            frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+/// Reference: so fine a tessellation that its deviation is a small part of a pixel.
+class UniformFine : public Technique {
+ public:
+  using Settings = UniformFineSettings;
+  explicit UniformFine(const Settings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    ComputeTessellationSettings all;
+    all.tessellation.factors = BySegments{settings_.segments};
+    const int64_t side = settings_.segments + 1, patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
+    all.capacity = std::max<int64_t>(patches * side * side, 4);
+    all.shading = settings_.shading;
+    fine_.emplace(all);
+    fine_->prepare(frame);
+  }
+  void render(frame::Frame& frame) override { fine_->render(frame); }
+  const gl::Texture& product() const override { return fine_->product(); }
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    return fine_->tessellation(frame);
+  }
+  std::vector<Counter> count(frame::Frame& frame) override { return fine_->count(frame); }
+
+ private:
+  Settings settings_;
+  std::optional<ComputeTessellation> fine_;
+};
+
+const RegisteredTechnique<UniformFine> kUniformFineRegistered{
+    {.name = "tessellation/uniform_fine",
+     .version = 1,
+     .summary = "Curved surfaces with the same fine tessellation of all patches",
+     .source = "bench",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .reference = true,
+     .tessellates = true,
+     .counters = ComputeTessellation::quantities()}};
+
+const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
+    {.name = "tessellation/compute",
+     .version = 1,
+     .summary = "Curved surfaces tessellated on the fly in compute shaders (CudaTess)",
+     .source = "Schwarz 2009, section 7.6 (SC-69)",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .tessellates = true,
+     .counters = ComputeTessellation::quantities()}};
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+layout(location = 0) in vec3 position;
+layout(location = 1) in uint materialOfVertex;
+layout(location = 2) in vec3 normalOfVertex;
+uniform mat4 anchorToClip;
+out vec3 normal;
+out float distance_;
+flat out uint material;
+
+void main() {
+  precise const vec4 clip = anchorToClip * vec4(position, 1.0);
+  gl_Position = clip;
+  normal = normalOfVertex;
+  distance_ = clip.w;
+  material = materialOfVertex;
+}

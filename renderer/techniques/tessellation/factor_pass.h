@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+
+#include "experiments/base/settings_table.h"
+#include "renderer/frame/frame.h"
+#include "renderer/surfaces/factors.h"
+#include "renderer/techniques/tessellation/patch_buffers.h"
+
+namespace limen::techniques {
+
+/// Factors from bounds on the deviation (Schwarz 2009, sections 7.4.2 to 7.4.4; SC-55 to SC-57).
+struct ByDeviation {
+  static constexpr const char *kKind = "deviation", *kSummary = "from a bound on the distance to the surface";
+  double tolerancePx = 0.5;
+  surfaces::FactorRule rule = surfaces::FactorRule::AbiEzziShirman;
+  bool strict = false;
+  int most = 64;
+  static const SettingsTable<ByDeviation>& table();
+};
+
+/// The same factor on all sides of all patches.
+struct BySegments {
+  static constexpr const char *kKind = "uniform", *kSummary = "the same for all";
+  int segments = 16;
+  static const SettingsTable<BySegments>& table();
+};
+
+struct FactorSettings {
+  std::variant<ByDeviation, BySegments> factors;
+  bool cull = true;
+  bool cornerFix = true;
+  static const SettingsTable<FactorSettings>& table();
+};
+
+/// Phases 1 and 2 of CudaTess (Schwarz 2009, section 7.6): factors of each patch, of common sides the larger
+/// one, and how many vertices and indices each patch's pattern takes.
+class FactorPass {
+ public:
+  FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings);
+  /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
+  void run(frame::Frame& frame) const;
+
+  const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer
+  const gl::Buffer& counts() const { return counts_; }    ///< uvec2 per patch, and one more
+  int64_t bytes() const { return own_.bytes() + factors_.bytes() + counts_.bytes(); }
+
+ private:
+  const PatchBuffers& patches_;
+  FactorSettings settings_;
+  const gl::Program &factorsProgram_, &countsProgram_;
+  gl::Buffer own_, factors_, counts_;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/tessellation/patch_buffers.h"
+
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+uint32_t shapeOf(const surfaces::Patch& patch) {
+  return (patch.domain == surfaces::Domain::Rectangle ? 1U : 0U) | uint32_t{patch.degreeU} << 1 |
+         uint32_t{patch.degreeV} << 5 | uint32_t{patch.normalDegree} << 9;
+}
+
+std::vector<TessellatedPatch> recordsOf(const scene::Scene& scene) {
+  const surfaces::PatchSet& set = scene.surfaces;
+  std::vector<TessellatedPatch> out;
+  out.reserve(set.patches.size());
+  for (size_t i = 0; i < set.patches.size(); ++i) {
+    const surfaces::Patch& patch = set.patches[i];
+    TessellatedPatch record{patch.firstPoint, patch.firstNormal, shapeOf(patch),
+                            scene.parts[patch.part].material, ivec4(-1)};
+    if (i < set.neighbours.size())
+      for (int side = 0; side < surfaces::sidesOf(patch.domain); ++side) {
+        const surfaces::Neighbour& neighbour = set.neighbours[i][static_cast<size_t>(side)];
+        if (neighbour.patch >= 0) record.neighbours[side] = 4 * neighbour.patch + neighbour.side;
+      }
+    out.push_back(record);
+  }
+  return out;
+}
+
+std::vector<glm::vec4> pointsOf(const surfaces::PatchSet& set, glm::dvec3 anchor) {
+  std::vector<glm::vec4> out;
+  out.reserve(set.points.size());
+  for (const glm::dvec4& p : set.points) out.emplace_back(glm::dvec4(glm::dvec3(p) - p.w * anchor, p.w));
+  return out;
+}
+
+std::vector<glm::vec4> normalsOf(const surfaces::PatchSet& set) {
+  std::vector<glm::vec4> out;
+  out.reserve(set.normals.size());
+  for (const glm::dvec3& n : set.normals) out.emplace_back(glm::dvec4(n, 0.0));
+  return out;
+}
+
+gl::ShaderDefines definesOf(const surfaces::PatchSet& set) {
+  for (const surfaces::Patch& patch : set.patches)
+    if (shapeOf(patch) != shapeOf(set.patches[0])) return {};
+  return {{"SHAPE", std::to_string(shapeOf(set.patches[0])) + "u"}};
+}
+
+}  // namespace
+
+PatchBuffers::PatchBuffers(const scene::Scene& scene, glm::dvec3 anchor)
+    : count_(static_cast<uint32_t>(scene.surfaces.patches.size())),
+      patches_(recordsOf(scene)),
+      points_(pointsOf(scene.surfaces, anchor)),
+      normals_(normalsOf(scene.surfaces)),
+      defines_(definesOf(scene.surfaces)) {}
+
+void PatchBuffers::bindStorage() const {
+  patches_.bindStorage(kPatchesBuffer);
+  points_.bindStorage(kPatchPointsBuffer);
+  normals_.bindStorage(kPatchNormalsBuffer);
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/tessellation/surface_picture.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <set>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+/// Triangles of the parts that are not made of patches.
+std::vector<scene::TriangleRange> meshRanges(const scene::Scene& scene) {
+  std::set<uint32_t> curved;
+  for (const surfaces::Patch& patch : scene.surfaces.patches) curved.insert(patch.part);
+  std::vector<scene::TriangleRange> out;
+  for (uint32_t part = 0; part < scene.parts.size(); ++part)
+    if (!curved.contains(part))
+      out.push_back({scene.parts[part].firstTriangle, scene.parts[part].triangleCount});
+  return out;
+}
+
+}  // namespace
+
+SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading,
+                               const std::string& pass)
+    : shading_(shading),
+      pass_(pass),
+      meshProgram_(frame.context().programs().get(
+          {"renderer/frame/triangle_ids.vert.glsl", "renderer/frame/triangle_ids.frag.glsl"})),
+      shadeProgram_(frame.context().programs().compute(
+          "renderer/techniques/tessellation/surface_shade.comp.glsl", frame::shadingDefines(shading, frame))),
+      mesh_(frame.scene().parts.size()),
+      ids_(gl::Format::R32UI, frame.sizePx()),
+      normals_(gl::Format::RGBA32F, frame.sizePx()),
+      depth_(gl::Format::Depth32F, frame.sizePx()),
+      picture_(gl::Format::RGBA32F, frame.sizePx()),
+      framebuffer_({&ids_, &normals_}, &depth_) {
+  mesh_.set(meshRanges(frame.scene()));
+  frame.passes().setBytesHeld(pass_ + "/raster", ids_.bytes() + normals_.bytes() + depth_.bytes());
+  frame.passes().setBytesHeld(pass_ + "/shade", picture_.bytes());
+}
+
+void SurfacePicture::render(frame::Frame& frame, const std::function<void()>& draw) {
+  {
+    const auto scope = frame.passes().open(pass_ + "/raster");
+    framebuffer_.bind();
+    constexpr std::array<GLuint, 4> kBackground = {frame::TriangleIds::kNone, 0, 0, 0};
+    constexpr GLfloat kFar = 0.0F;  // reversed depth: 0 is infinitely far
+    constexpr std::array<GLfloat, 4> kNothing = {};
+    glClearBufferuiv(GL_COLOR, 0, kBackground.data());
+    glClearBufferfv(GL_COLOR, 1, kNothing.data());
+    glClearBufferfv(GL_DEPTH, 0, &kFar);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDisable(GL_CULL_FACE);
+    meshProgram_.use();
+    meshProgram_.set("anchorToClip", frame::anchorToClip(frame));
+    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // its shader writes no normals
+    frame.gpuScene().draw(&mesh_);
+    glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    draw();
+    glDisable(GL_DEPTH_TEST);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+  const auto scope = frame.passes().open(pass_ + "/shade");
+  frame::configureShading(shadeProgram_, frame, shading_);
+  ids_.bindTexture(kSurfaceIdsUnit);
+  normals_.bindTexture(kSurfaceNormalsUnit);
+  picture_.bindImage(kSurfacePictureImage, gl::Access::Write);
+  shadeProgram_.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the shaders of tessellation are bound to. For C++ and GLSL.
+#pragma once
+
+#include "renderer/gl/shader_shared.h"
+
+#ifdef __cplusplus
+namespace limen::techniques {
+using glm::ivec4;
+#endif
+
+const int kTessellationGroup = 64;
+const int kMostSegments = 64;  // of a side
+
+struct TessellatedPatch {  // std430
+  uint firstPoint, firstNormal;
+  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the normals
+  uint material;
+  ivec4 neighbours;  // of each side: 4 patch + side of the patch along it, or -1
+};
+#ifdef __cplusplus
+static_assert(sizeof(TessellatedPatch) == 32 && offsetof(TessellatedPatch, neighbours) == 16);
+#endif
+
+struct TessellatedVertex {  // std430
+  vec3 position;            // relative to the anchor
+  uint material;
+  vec3 normal;  // unit
+  uint rung;    // kRung...
+};
+#ifdef __cplusplus
+static_assert(sizeof(TessellatedVertex) == 32 && offsetof(TessellatedVertex, normal) == 16);
+#endif
+
+// Where a normal came from.
+const uint kRungField = 0u;        // the patch's own normal field
+const uint kRungTangents = 1u;     // cross product of the derivatives
+const uint kRungInward = 2u;       // the same a little way inside
+const uint kRungCornerPlane = 3u;  // area vector of the corners
+const uint kRungNone = 4u;
+const int kRungs = 5;
+
+// What is written and drawn, and by how many groups. std430.
+struct TessellationTotals {
+  uint groupsX, groupsY, groupsZ;                                 // of vertices
+  uint indexGroupsX, indexGroupsY, indexGroupsZ;                  // of indices
+  uint vertices, patches;                                         // patches that fit
+  uint indices, instances, firstIndex, baseVertex, baseInstance;  // DrawElementsIndirectCommand
+  uint overflow;                                                  // patches that do not fit
+  uint neededVertices, neededIndices;
+};
+#ifdef __cplusplus
+static_assert(sizeof(TessellationTotals) == 64 && offsetof(TessellationTotals, indices) == 32);
+#endif
+
+const uint kPatchesBuffer = 0u;
+const uint kPatchPointsBuffer = 1u;
+const uint kPatchNormalsBuffer = 2u;
+const uint kOwnFactorsBuffer = 3u;  // of each patch four bytes, one a side; 0: culled
+const uint kFactorsBuffer = 4u;     // the same, consistent
+const uint kSlotCountsBuffer = 5u;
+const uint kSlotOffsetsBuffer = 5u;
+const uint kTotalsBuffer = 6u;
+const uint kVerticesBuffer = 7u;
+const uint kIndicesBuffer = 3u;
+
+// Picture.
+const uint kSurfaceIdsUnit = 0u;
+const uint kSurfaceNormalsUnit = 1u;
+const uint kSurfacePictureImage = 0u;
+const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
+
+#ifdef __cplusplus
+}  // namespace limen::techniques
+#endif
