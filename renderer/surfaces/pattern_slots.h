@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 #define LIMEN_SLOTS inline
 namespace limen::surfaces {
+using glm::ivec3;
 using glm::ivec4;
 using std::sqrt;
 #else
@@ -285,6 +286,18 @@ LIMEN_SLOTS int patternCorner(PatternPlan plan, int triangle, int corner) {
   }
   // Every other triangle of a strip is turned.
   return patternIndex(plan, first + at + (at % 2 == 1 && corner < 2 ? 1 - corner : corner));
+}
+
+// All corners of one, without the strips' arithmetic where there are most of them.
+LIMEN_SLOTS ivec3 patternTriangle(PatternPlan plan, int triangle) {
+  if (plan.rectangle == 1 && triangle < 2 * plan.rows * plan.cols) {
+    const int row = triangle / (2 * plan.cols), at = triangle - row * 2 * plan.cols, width = plan.cols + 1;
+    const int below = row * width + at / 2, above = below + width;
+    if (at % 2 == 0) return ivec3(above, below, above + 1);
+    return ivec3(above + 1, below, below + 1);
+  }
+  return ivec3(patternCorner(plan, triangle, 0), patternCorner(plan, triangle, 1),
+               patternCorner(plan, triangle, 2));
 }
 
 #ifdef __cplusplus

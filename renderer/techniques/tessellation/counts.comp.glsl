@@ -34,7 +34,7 @@ void main() {
     plan = trianglePattern(mine, cornerFix);
   }
 #ifdef LISTS
-  slotCounts[number] = uvec2(plan.vertices, 3 * plan.triangles);
+  slotCounts[number] = uvec2(plan.vertices, plan.triangles);
 #else
   slotCounts[number] = uvec2(plan.vertices, plan.indices);
 #endif

@@ -38,7 +38,7 @@ struct FactorSettings {
 /// one, and how many vertices and indices each patch's pattern takes.
 class FactorPass {
  public:
-  /// `lists`: indices are counted for single triangles, not strips.
+  /// `lists`: triangles are counted, not indices of strips.
   FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
              bool lists = false);
   /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.

@@ -105,6 +105,7 @@ class ComputeTessellation : public Technique {
       totalsProgram_->set("patchCount", patches_->count());
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
       totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
