@@ -2,6 +2,7 @@
 // Points and normals of patches at samples of a pattern. Terms of mirrored control points are added first, and a
 // parameter's distance from 1 is a number of its own, so that patches with a common side get bitwise the same
 // points along it, in whichever direction each of them runs (Schwarz 2009, section 7.3.1; SC-05).
+#include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
 
 layout(std430, binding = kPatchNormalsBuffer) readonly buffer PatchNormals { vec4 patchNormals[]; };
@@ -31,15 +32,29 @@ struct DomainPoint {
   vec2 at, rest;
 };
 
+// Division may be off by some units in the last place, and n / n must be 1: points of a side are its own alone.
+float gridFraction(int i, int n) { return i == n ? 1.0 : float(i) / float(n); }
+
 DomainPoint domainPoint(uint shape, ivec4 s) {
   DomainPoint point;
   if (isRectangle(shape)) {
-    point.at = vec2(s.xz) / vec2(s.yw);
-    point.rest = vec2(s.yw - s.xz) / vec2(s.yw);
+    point.at = vec2(gridFraction(s.x, s.y), gridFraction(s.z, s.w));
+    point.rest = vec2(gridFraction(s.y - s.x, s.y), gridFraction(s.w - s.z, s.w));
   } else {
-    point.at = vec2(s.xy) / float(s.w);
-    point.rest = vec2(float(s.z) / float(s.w), 0.0);
+    point.at = vec2(gridFraction(s.x, s.w), gridFraction(s.y, s.w));
+    point.rest = vec2(gridFraction(s.z, s.w), 0.0);
   }
+  return point;
+}
+
+// The same of real factors. `units`: of the sides.
+DomainPoint spacedPoint(uint shape, ivec4 s, int spacing, ivec4 units) {
+  if (!isRectangle(shape)) return domainPoint(shape, s);
+  const int side = sideOfSample(1, s), alongU = unitsAlong(units, side, 0), alongV = unitsAlong(units, side, 1);
+  DomainPoint point;
+  point.at = vec2(spacedPlace(spacing, alongU, s.x, s.y), spacedPlace(spacing, alongV, s.z, s.w));
+  point.rest =
+      vec2(spacedPlace(spacing, alongU, s.y - s.x, s.y), spacedPlace(spacing, alongV, s.w - s.z, s.w));
   return point;
 }
 
@@ -192,10 +207,9 @@ vec3 fieldNormal(TessellatedPatch patch_, int n, DomainPoint point) {
   return sum;
 }
 
-// As a vertex of the picture.
-TessellatedVertex surfaceVertex(TessellatedPatch patch_, DomainPoint point) {
+// As a vertex of the picture, from the value and derivatives there.
+TessellatedVertex vertexOf(TessellatedPatch patch_, DomainPoint point, SurfaceJet jet) {
   const uint shape = shapeOf(patch_);
-  const SurfaceJet jet = surfaceJet(patch_, point);
   precise const vec3 position = jet.p.xyz / jet.p.w;
   TessellatedVertex vertex;
   vertex.position = position;
@@ -242,5 +256,26 @@ TessellatedVertex surfaceVertex(TessellatedPatch patch_, DomainPoint point) {
     vertex.normal = vec3(0.0, 0.0, 1.0);
     vertex.rung = kRungNone;
   }
+  return vertex;
+}
+
+TessellatedVertex surfaceVertex(TessellatedPatch patch_, DomainPoint point) {
+  return vertexOf(patch_, point, surfaceJet(patch_, point));
+}
+
+// Corner (0: u = 1, 1: v = 1, 2: w = 1) of a triangle with a normal field: all that one with factors of 1 needs.
+TessellatedVertex triangleCorner(TessellatedPatch patch_, int corner) {
+  const int n = degreeU(shapeOf(patch_)), m = normalDegree(shapeOf(patch_));
+  const int place = corner == 0 ? 0 : (corner == 1 ? trianglePlace(n, 0, 0) : trianglePlace(n, 0, n));
+  const int normalPlace = corner == 0 ? 0 : (corner == 1 ? trianglePlace(m, 0, 0) : trianglePlace(m, 0, m));
+  const vec4 point = patchPoints[int(patch_.firstPoint) + place];
+  TessellatedVertex vertex;
+  precise const vec3 position = point.xyz / point.w;
+  vertex.position = position;
+  vertex.material = patch_.material;
+  const vec3 normal = patchNormals[int(patch_.firstNormal) + normalPlace].xyz;
+  const bool has = dot(normal, normal) > 1e-20;
+  vertex.normal = has ? normalize(normal) : vec3(0.0, 0.0, 1.0);
+  vertex.rung = has ? kRungField : kRungNone;
   return vertex;
 }

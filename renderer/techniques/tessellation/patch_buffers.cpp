@@ -22,7 +22,8 @@ std::vector<TessellatedPatch> recordsOf(const scene::Scene& scene) {
     if (i < set.neighbours.size())
       for (int side = 0; side < surfaces::sidesOf(patch.domain); ++side) {
         const surfaces::Neighbour& neighbour = set.neighbours[i][static_cast<size_t>(side)];
-        if (neighbour.patch >= 0) record.neighbours[side] = 4 * neighbour.patch + neighbour.side;
+        if (neighbour.patch >= 0)
+          record.neighbours[side] = 8 * neighbour.patch + 2 * neighbour.side + (neighbour.reversed ? 1 : 0);
       }
     out.push_back(record);
   }

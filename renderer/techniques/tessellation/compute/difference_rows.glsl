@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A row of samples of a patch of degree 3 along u, by forward differences. DIFFERENCE: vec4, or float of the component LANE.
+#include "renderer/surfaces/forward_differences.glsl"
+
+#ifdef LANE
+DIFFERENCE controlPoint(int at) { return patchPoints[at][LANE]; }
+#else
+DIFFERENCE controlPoint(int at) { return patchPoints[at]; }
+#endif
+
+// The curve at a v, and its derivative along v, in powers of u.
+struct DifferenceRow {
+  CubicPowers value, across;
+};
+struct DifferenceRuns {
+  CubicRun value, across;
+  QuadraticRun along;
+};
+
+DifferenceRow differenceRow(TessellatedPatch patch_, float v, float rest) {
+  const int n = degreeV(shapeOf(patch_)), first = int(patch_.firstPoint);
+  float basis[kBasis], slope[kBasis];
+  bernstein(n, v, rest, basis, slope);
+  DIFFERENCE points[4], slopes[4];
+  for (int i = 0; i < 4; ++i) {
+    points[i] = DIFFERENCE(0.0);
+    slopes[i] = DIFFERENCE(0.0);
+    for (int j = 0; j <= n; ++j) {
+      const DIFFERENCE point = controlPoint(first + i + 4 * j);
+      points[i] += point * basis[j];
+      slopes[i] += point * slope[j];
+    }
+  }
+  DifferenceRow row;
+  row.value = powersOf(points[0], points[1], points[2], points[3]);
+  row.across = powersOf(slopes[0], slopes[1], slopes[2], slopes[3]);
+  return row;
+}
+
+DifferenceRuns differenceRuns(DifferenceRow row, int column, int segments) {
+  const float by = 1.0 / float(segments), u = gridFraction(column, segments);
+  DifferenceRuns runs;
+  runs.value = cubicRun(row.value, u, by);
+  runs.across = cubicRun(row.across, u, by);
+  runs.along = slopeRun(row.value, u, by);
+  return runs;
+}
+
+void advance(inout DifferenceRuns runs) {
+  step_(runs.value);
+  step_(runs.across);
+  step_(runs.along);
+}
+
+// Samples that neighbours have as well are evaluated directly, unless they are copied later: then the corners alone are.
+bool isDirect(ivec4 s) {
+#ifdef COPIED
+  return (s.x == 0 || s.x == s.y) && (s.z == 0 || s.z == s.w);
+#else
+  return s.x == 0 || s.x == s.y || s.z == 0 || s.z == s.w;
+#endif
+}
