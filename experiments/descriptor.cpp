@@ -61,6 +61,7 @@ class Reader {
     if (const YamlNode* node = root.find("artefacts")) readArtefacts(*node);
     if (const YamlNode* node = root.find("metrics")) readMetrics(*node);
     checkReference(root);
+    checkTessellation();
     readReport(root.find("report"));
     if (const YamlNode* node = root.find("expect"))
       out_.expectations = readExpectations(*node, out_, catalogue_, problems_);
@@ -217,6 +218,8 @@ class Reader {
       const CatalogueEntry& info = catalogue_.metrics.at(entry->name);
       if (info.needsReference && !referenceNeededAt_)
         referenceNeededAt_ = item.mark, referenceNeededBy_ = entry->name;
+      if (info.needsTessellation && !tessellationNeededAt_)
+        tessellationNeededAt_ = item.mark, tessellationNeededBy_ = entry->name;
       const std::vector<AxisPoint> points = combine(entry->axes);
       if (problems_.size() != before || points.empty()) continue;
       out_.metrics.push_back({entry->name, info.version, ParameterValues(info.parameters, points.at(0))});
@@ -233,6 +236,20 @@ class Reader {
             "metric '" + measurementName(metric, out_.metrics, info.parameters) + "' is listed twice",
             "keep one, or give them different values");
       out_.metricNames.insert(out_.metricNames.end(), names.begin(), names.end());
+    }
+  }
+
+  void checkTessellation() {
+    if (!tessellationNeededAt_) return;
+    for (const Entry& entry : out_.techniques) {
+      if (catalogue_.techniques.at(entry.name).tessellates) continue;
+      std::vector<std::string> suitable;
+      for (const auto& [name, info] : catalogue_.techniques)
+        if (info.tessellates) suitable.push_back(name);
+      problems_.add(*tessellationNeededAt_,
+                    "metric '" + tessellationNeededBy_ + "' needs the triangles of curved surfaces, which '" +
+                        entry.name + "' does not make",
+                    "measure it with " + join(suitable));
     }
   }
 
@@ -303,8 +320,8 @@ class Reader {
   FileFinder files_;
   NodeReader reader_;
   Descriptor out_;
-  std::optional<Mark> referenceNeededAt_;
-  std::string referenceNeededBy_;
+  std::optional<Mark> referenceNeededAt_, tessellationNeededAt_;
+  std::string referenceNeededBy_, tessellationNeededBy_;
 };
 
 }  // namespace

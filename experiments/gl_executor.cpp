@@ -266,6 +266,10 @@ class GlExecutor : public Executor {
             .render(request, visit);
       };
       evaluated.path = &path;
+      std::shared_ptr<const surfaces::TessellatedSurface> tessellation;
+      if (needsTessellation(plan)) tessellation = run.technique->tessellation(*run.frame);
+      evaluated.tessellation = tessellation.get();
+      evaluated.patches = &on.onGpu.scene.surfaces;
       evaluated.wantsPictures = plan.artefacts.pictures;
       evaluated.wantsLight = plan.artefacts.exr;
       for (store::Measurement& measurement : evaluate(plan, evaluated, shown))
@@ -295,6 +299,12 @@ class GlExecutor : public Executor {
     startAfterwork(run, on, std::move(product), reference, std::move(shown));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
+  }
+
+  static bool needsTessellation(const PlannedRun& plan) {
+    return std::any_of(plan.metrics.begin(), plan.metrics.end(), [](const Configuration& metric) {
+      return perception::MetricRegistry::instance().get(metric.name).needsTessellation;
+    });
   }
 
   /// Null if no metric of the run needs them.

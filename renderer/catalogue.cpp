@@ -30,6 +30,7 @@ Catalogue readRegistries() {
     entry.needs = info.needs;
     entry.reference = info.reference;
     entry.onCpu = info.onCpu;
+    entry.tessellates = info.tessellates;
     entry.counters = info.counters;
     entry.check = info.check;
   }
@@ -42,6 +43,7 @@ Catalogue readRegistries() {
     entry.quantity = info.quantity();
     entry.figures = info.figures;
     entry.needsReference = info.needsReference;
+    entry.needsTessellation = info.needsTessellation;
   }
   out.shading = frame::ShadedSetting::table().parameters();
   return out;

@@ -29,6 +29,8 @@ struct CatalogueEntry {
   Quantity quantity = "";              ///< what it measures
   std::vector<Quantity> figures = {};  ///< if it measures several things (MetricInfo::figures)
   bool needsReference = true;
+  /// Of a technique: it makes tessellated surfaces; of a metric: it evaluates them.
+  bool tessellates = false, needsTessellation = false;
 };
 
 using CatalogueKind = std::map<std::string, CatalogueEntry>;

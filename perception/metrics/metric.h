@@ -17,6 +17,11 @@ namespace limen::gl {
 class Texture;
 }
 
+namespace limen::surfaces {
+struct PatchSet;
+struct TessellatedSurface;
+}  // namespace limen::surfaces
+
 namespace limen::perception {
 
 class MetricGpu;
@@ -53,6 +58,9 @@ struct ComparisonInput {
   Depicts depicts = Depicts::Light;
   const LitSurfaces* surfaces = nullptr;  ///< for metrics with needsSurfaces; null if there are none
   const PathRenderer* path = nullptr;     ///< for metrics with needsPath; null if there is no scene
+  /// For metrics with needsTessellation: the scene's curved surfaces, and how they were drawn.
+  const surfaces::PatchSet* patches = nullptr;
+  const surfaces::TessellatedSurface* tessellation = nullptr;
   bool wantsPictures = false;             ///< coded ones of MetricResult::pictures will be used
   bool wantsLight = false;                ///< those of linear light will be
 };
@@ -94,6 +102,8 @@ struct MetricInfo {
   bool needsGl = false;
   bool needsSurfaces = false;  ///< shows visibility and light colour on the scene's surfaces
   bool needsPath = false;      ///< evaluates several frames
+  /// Evaluates tessellated surfaces: refused for techniques that make none (TechniqueInfo::tessellates).
+  bool needsTessellation = false;
   /// Changing the reference changes the value by at most the root mean square of its pixels' changes, as for
   /// means of errors over pixels.
   bool averagesPixels = false;

@@ -72,15 +72,35 @@ void printRow(glm::ivec2 size, const std::string& content, const std::string& wh
              unit, count);
 }
 
+/// What of the model is timed, beside its default for lasting pictures.
+struct Variant {
+  const char* name;
+  PoppingSettings settings;
+  bool isSwitch = false;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> out = {{"", {}}, {" switched", {}, true}};
+  PoppingSettings settings;
+  settings.neighbourhood = ExtendedMasking{};
+  out.push_back({" masked by neighbours", settings});
+  out.push_back({" masked by neighbours switched", settings, true});
+  settings = {};
+  settings.bands.weights = FittedWeights{};
+  out.push_back({" fitted", settings});
+  out.push_back({" fitted switched", settings, true});
+  return out;
+}
+
 void measure(gl::Context& context, glm::ivec2 size, const std::string& content, const PoppingInput& in,
-             bool compare) {
+             const PoppingSettings& settings, bool compare) {
   const gl::Texture actual = upload(in.actual), predicted = upload(in.predicted),
                     moved = upload(in.actualDisplacement), weight = upload(in.disocclusion);
   PoppingGpuInput input;
   input.actual = &actual, input.predicted = &predicted, input.actualDisplacement = &moved;
   input.disocclusion = &weight;
   const DisplayProfile display = displayPreset("schwarz_2009");
-  PoppingPredictorGpu predictor(context, size, display, {}, in.isSwitch);
+  PoppingPredictorGpu predictor(context, size, display, settings, in.isSwitch);
   const bool software = context.device().software;
 
   gl::PassList passes;
@@ -113,22 +133,22 @@ void measure(gl::Context& context, glm::ivec2 size, const std::string& content, 
   if (!compare) return;
 
   const auto begin = HostClock::now();
-  const PoppingResult reference = predictPopping(in, display);
+  const PoppingResult reference = predictPopping(in, display, settings);
   printRow(size, content, "reference on the CPU", 1e3 * seconds(HostClock::now() - begin), 0, 0, "ms", 1);
   const Image jnd = predictor.jnd().read();
   const RegionMap regions = predictor.readRegions();
   double worst = 0.0;
-  size_t judged = 0, otherLabel = 0, atThreshold = 0;
+  size_t compared = 0, otherLabel = 0, atThreshold = 0;
   for (size_t p = 0; p < jnd.data.size(); ++p) {
     const double exact = reference.jndExact[p];
     if (exact >= 0.1) {
-      ++judged;
+      ++compared;
       worst = std::max(worst, std::abs(jnd.data[p] - exact) / exact);
     }
     if ((regions.labels[p] != 0) != (reference.regions.labels[p] != 0)) ++otherLabel;
     if (std::abs(exact - 2.0) < 2e-3) ++atThreshold;
   }
-  printRow(size, content, "largest relative error from 0.1 JND on", worst, 0, 0, "1", judged);
+  printRow(size, content, "largest relative error from 0.1 JND on", worst, 0, 0, "1", compared);
   printRow(size, content, "pixels in a region on one side only", static_cast<double>(otherLabel), 0, 0, "px",
            jnd.data.size());
   printRow(size, content, "pixels within 0.001 of the threshold", static_cast<double>(atThreshold), 0, 0,
@@ -161,11 +181,11 @@ int measureAll(bool quick) {
               : std::vector<glm::ivec2>{{1024, 768}, {1920, 1080}, {3840, 2160}};
     for (const glm::ivec2 size : sizes)
       for (const bool isScene : {true, false})
-        for (const bool isSwitch : {false, true}) {
+        for (const Variant& variant : variants()) {
           PoppingInput input = makeInput(size, isScene);
-          input.isSwitch = isSwitch;
-          measure(*context, size, std::string(isScene ? "scene" : "noise") + (isSwitch ? " switched" : ""),
-                  input, size.x <= 1920);
+          input.isSwitch = variant.isSwitch;
+          measure(*context, size, std::string(isScene ? "scene" : "noise") + variant.name, input,
+                  variant.settings, size.x <= 1920);
         }
     context->checkDebugMessages();
     return kExitSuccess;

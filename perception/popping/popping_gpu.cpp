@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <memory>
-#include <mutex>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
+#include "perception/popping/band_weights.h"
 #include "perception/popping/gpu/open_pass.h"
 #include "perception/popping/gpu/popping_bindings.h"
-#include "perception/popping/sensitivity.h"
+#include "perception/popping/response_tables.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/masking.h"
 
@@ -25,12 +24,6 @@ using gl::Format;
 
 constexpr glm::ivec2 kGroup{kPoppingGroupX, kPoppingGroupY};
 const std::string kFolder = "perception/popping/gpu/";
-
-// Nodes of the sensitivity table in a decade of velocity or luminance: sensitivities are straight enough
-// between them for an error below 1e-3 of their value.
-constexpr double kNodesPerDecade = 65.0;
-constexpr double kFastest = 1e3, kSlowest = 1e-5;    ///< deg/s
-constexpr double kBrightest = 1e4, kDarkest = 1e-4;  ///< cd/m2; adaptation is clamped to this range
 
 /// Sources of adaptation luminance, as distinguished in response.glsl.
 enum class AdaptationSource { Level, Mean, Fixed };
@@ -83,89 +76,6 @@ gl::ShaderDefines maskingDefines(const ChosenEntry& masking) {
               "use none, daly, lubin, schwarz or self");
 }
 
-/// Velocity of the table's first node: the smallest retinal velocity of the eye model.
-double slowest(const PoppingSettings& settings) {
-  const EyeMovement model = settings.eyeModel();
-  const bool hasFloor = model == EyeMovement::Floor || model == EyeMovement::Monotone;
-  return hasFloor ? std::clamp(settings.leastVelocityDegS(), kSlowest, 0.5 * kFastest) : kSlowest;
-}
-
-/// Luminance of the first: no mean of pixels is darker than the display's black.
-double darkest(const PoppingSettings& settings, const DisplayProfile& display) {
-  const auto* fixed = std::get_if<FixedAdaptation>(&settings.adaptation);
-  const double least = fixed ? fixed->luminanceCdM2 : display.blackLevelCdM2();
-  return std::clamp(0.99 * least, kDarkest, 0.5 * kBrightest);
-}
-
-/// Range and nodes of the table.
-struct TableGrid {
-  glm::dvec2 low, per;  ///< log2 of the first node; nodes per octave
-  glm::ivec2 size;
-};
-
-TableGrid gridOf(const PoppingSettings& settings, const DisplayProfile& display) {
-  const glm::dvec2 low(std::log2(slowest(settings)), std::log2(darkest(settings, display)));
-  const glm::dvec2 octaves = glm::log2(glm::dvec2(kFastest, kBrightest)) - low;
-  const glm::ivec2 size = glm::ivec2(glm::ceil(octaves * std::log10(2.0) * kNodesPerDecade)) + 1;
-  return {low, glm::dvec2(size - 1) / octaves, size};
-}
-
-int partsOf(const PoppingSettings& settings) { return settings.bands.isFitted() ? kBandParts : 1; }
-
-glm::ivec2 tablePx(const PoppingModel& model, const PoppingSettings& settings, glm::ivec2 size) {
-  return {size.x, size.y * partsOf(settings) * std::max(1, model.contrastLevels)};
-}
-
-Image makeSensitivityTable(const PoppingModel& model, const DisplayProfile& display,
-                           const PoppingSettings& settings, const TableGrid& grid) {
-  const glm::ivec2 px = tablePx(model, settings, grid.size);
-  const int parts = partsOf(settings);
-  Image table(px.x, px.y, 4);
-  if (model.contrastLevels == 0) return table;
-  const Sensitivity sensitivity(model, display, settings, true);
-  forRowBlocks(table.height, static_cast<size_t>(table.width) * 1000, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < table.width; ++x) {
-        const int block = y / grid.size.y, level = block / parts;
-        const double velocity = std::exp2(grid.low.x + x / grid.per.x);
-        const double luminance = std::exp2(grid.low.y + y % grid.size.y / grid.per.y);
-        const std::array<double, 3> at =
-            parts == 1 ? sensitivity.at(level, velocity, luminance)
-                       : sensitivity.weights(level, velocity, luminance)[static_cast<size_t>(block % parts)];
-        for (int c = 0; c < 3; ++c) table.at(x, y, c) = static_cast<float>(at[static_cast<size_t>(c)]);
-      }
-  });
-  return table;
-}
-
-/// Tables take a tenth of a second or more and are the same for all runs of a sweep on one display: the last
-/// few are cached. The key is everything that makeSensitivityTable() reads.
-std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
-                                              const PoppingSettings& settings, const TableGrid& grid) {
-  constexpr size_t kKept = 8;
-  const SensitivitySettings& s = settings.sensitivity;
-  std::string key = display.hash() + "|" + s.achromatic.csf.name + "|" + s.redGreen.csf.name + "|" +
-                    s.blueYellow.csf.name + "|" + std::to_string(model.contrastLevels) +
-                    (settings.bands.isFitted() ? "|fitted" : "|peak") +
-                    (settings.bands.upsampler() == Upsampler::Expand ? "|expand" : "|linear");
-  const auto add = [&](double value) { key += "|" + shortestNumber(value); };
-  for (const double value : model.peakCpd) add(value);
-  for (const double value :
-       {settings.bands.kernelCentre, settings.minkowskiExponent, model.areaDeg2, model.widthDeg, model.scaleA,
-        model.scaleRg, model.scaleBy, Kelly83Scale::of(s.redGreen.csf).referenceCdM2,
-        Kelly83Scale::of(s.blueYellow.csf).referenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
-        double(grid.size.x), double(grid.size.y)})
-    add(value);
-  static std::mutex guard;
-  static std::vector<std::pair<std::string, std::shared_ptr<const Image>>> kept;
-  const std::scoped_lock lock(guard);
-  for (const auto& [known, table] : kept)
-    if (known == key) return table;
-  if (kept.size() == kKept) kept.erase(kept.begin());
-  kept.emplace_back(key, std::make_shared<const Image>(makeSensitivityTable(model, display, settings, grid)));
-  return kept.back().second;
-}
-
 glm::dvec3 luminanceRow() {
   const glm::dmat3 lmsOfXyz(lmsFromXyz({1, 0, 0}), lmsFromXyz({0, 1, 0}), lmsFromXyz({0, 0, 1}));
   const glm::dmat3 inverse = glm::inverse(lmsOfXyz);
@@ -184,10 +94,10 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
       model_(modelOf(sizePx, display, settings)),
       defines_(maskingDefines(settings.masking)),
       luminanceOfCones_(settings.sensitivity.isDkl() ? glm::dvec3(1, 0, 0) : luminanceRow()),
-      tableSize_(gridOf(settings, display).size),
+      grid_(settings, display),
       cones_(Format::RGBA32F, sizePx, model_.gaussianLevels, 2),
       differences_(Format::RGBA32F, levelSize(1), std::max(1, model_.contrastLevels - 1)),
-      sensitivities_(Format::RGBA32F, tablePx(model_, settings, tableSize_)),
+      sensitivities_(Format::RGBA32F, responseTablePx(model_, grid_)),
       jnd_(Format::R32F, sizePx),
       seeds_(Format::R8UI, sizePx),
       counters_(sizeof(PoppingCounters), nullptr),
@@ -198,7 +108,13 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
   const bool isDkl = settings.sensitivity.isDkl();
   if (isDkl) defines_["CONTRAST_DKL"] = "1";
-  if (settings.bands.isFitted()) defines_["FITTED_WEIGHTS"] = "1";
+  if (settings.bands.isFitted() && model_.contrastLevels > 0) {
+    defines_["FITTED_WEIGHTS"] = "1";
+    defines_["LEAST_SENSITIVITY"] = number(BandWeights::kLeastSensitivity);
+    partTable_ = partWeightTable(model_, display, settings);
+    partWeights_.emplace(Format::RGBA32F, glm::ivec2(partTable_->weights.width, partTable_->weights.height));
+    partWeights_->write(partTable_->weights);
+  }
   const auto planesOf = [&](const std::array<double, 3>& light) {
     return isDkl ? dklFromXyz(display.xyz(light)) : lmsFromXyz(display.xyz(light));
   };
@@ -221,11 +137,9 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   conesOfBlack_ = black;
   conesOfLight_ =
       glm::dmat3(planesOf({1, 0, 0}) - black, planesOf({0, 1, 0}) - black, planesOf({0, 0, 1}) - black);
-  const TableGrid grid = gridOf(settings, display);
-  tableLow_ = grid.low, tablePer_ = grid.per;
-  sensitivities_.write(*sensitivityTable(model_, display, settings, grid));
+  sensitivities_.write(*sensitivityTable(model_, display, settings, grid_));
   if (const auto* channels = std::get_if<TemporalChannels>(&settings.temporal); channels && isSwitch)
-    temporal_.emplace(model_, display, settings, *channels, TemporalGrid{grid.low, grid.per, grid.size});
+    temporal_.emplace(model_, display, settings, *channels, grid_);
   if (normalised_) program("normalise");
   for (const char* name : {"light", "reduce", "mean", "difference", "collapse"}) program(name);
 }
@@ -340,9 +254,15 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("leastVelocity", static_cast<float>(settings_.leastVelocityDegS()));
   program.set("degSPerPx",
               static_cast<float>(screenVelocityDegS(1.0, display_.refreshHz, model_.pixelsPerDegree)));
-  program.set("tableSize", tableSize_);
-  program.set("tableLow", tableLow_);
-  program.set("tablePer", tablePer_);
+  program.set("table.size", grid_.size);
+  program.set("table.low", glm::vec2(grid_.low));
+  program.set("table.per", glm::vec2(grid_.per));
+  if (partTable_) {
+    partWeights_->bindTexture(kResponsePartWeightsUnit);
+    program.set("partTable.size", partTable_->size);
+    program.set("partTable.low", glm::vec2(partTable_->low));
+    program.set("partTable.per", glm::vec2(partTable_->per));
+  }
   if (temporal_)
     temporal_->bind(program,
                     level < model_.contrastLevels ? model_.peakCpd[static_cast<size_t>(level)] : 0.0);
@@ -461,9 +381,10 @@ Image PoppingPredictorGpu::debugImage(const std::string& name, const PoppingGpuI
 }
 
 int64_t PoppingPredictorGpu::bytesHeld() const {
-  return (normalised_ ? normalised_->bytes() : 0) + cones_.bytes() + differences_.bytes() +
-         sensitivities_.bytes() + (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() +
-         counters_.bytes() + mean_.bytes() + regions_.bytesHeld();
+  return (normalised_ ? normalised_->bytes() : 0) + (partWeights_ ? partWeights_->bytes() : 0) +
+         cones_.bytes() + differences_.bytes() + sensitivities_.bytes() +
+         (temporal_ ? temporal_->bytes() : 0) + jnd_.bytes() + seeds_.bytes() + counters_.bytes() +
+         mean_.bytes() + regions_.bytesHeld();
 }
 
 }  // namespace limen::perception

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -76,12 +77,13 @@ class PoppingPredictorGpu {
   PoppingModel model_;
   gl::ShaderDefines defines_, stageDefines_;
   glm::vec3 luminanceOfCones_;
-  glm::ivec2 tableSize_;  ///< nodes of velocity and luminance
+  ResponseTableGrid grid_;
   glm::mat3 conesOfLight_;
   glm::vec3 conesOfBlack_;
-  glm::vec2 tableLow_, tablePer_;
   gl::Texture cones_;  ///< Gaussian pyramids of cone responses and speed; layers: actual, predicted
   gl::Texture differences_, sensitivities_, jnd_, seeds_;
+  std::shared_ptr<const PartWeightTable> partTable_;  ///< with fitted weights, as partWeights_
+  std::optional<gl::Texture> partWeights_;
   std::optional<gl::Texture> normalised_;  ///< layers: as cones_, or after and before a switch
   std::optional<TemporalTablesGpu> temporal_;
   gl::Buffer counters_, mean_;

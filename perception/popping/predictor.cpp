@@ -45,7 +45,7 @@ glm::dvec3 luminanceRow() {
 
 /// What a level of a frame shows, if the model over time is used.
 struct Content {
-  Planes contrast;  ///< A, a, b over the band's gain
+  Planes contrast;  ///< A, a, b over the band's gain; of fitted parts, as if all were at the band's peak
   Plane luminance;
 };
 
@@ -255,6 +255,7 @@ class Predictor {
     const int width = contrast[0].width, height = contrast[0].height;
     Plane velocity(width, height);
     Planes response{Plane(width, height), Plane(width, height), Plane(width, height)};
+    if (isFitted_ && temporal_) content.contrast.fill(Plane(width, height));
     const double gain = result_.model.gain[i];
     forRowBlocks(height, static_cast<size_t>(width) * 400, [&](int first, int end) {
       for (int y = first; y < end; ++y)
@@ -268,7 +269,7 @@ class Predictor {
           const glm::dvec3 opponent = opponentOf(whole) / gain;
           glm::dvec3 normalised;
           if (isFitted_) {
-            const auto weights = sensitivity_->weights(level, v, luminance.at(x, y));
+            const Sensitivity::PartWeights weights = sensitivity_->weights(level, v, luminance.at(x, y));
             glm::dvec3 parts[kBandParts];
             for (int c = 0; c < 3; ++c) {
               const auto at = static_cast<size_t>(c);
@@ -277,9 +278,14 @@ class Predictor {
               parts[1][c] = (once[at].at(x, y) - twice[at].at(x, y)) * scale;
               parts[2][c] = whole[c] - (own - twice[at].at(x, y)) * scale;
             }
-            normalised = glm::dvec3(0.0);
-            for (size_t k = 0; k < kBandParts; ++k)
-              normalised += glm::dvec3(weights[k][0], weights[k][1], weights[k][2]) * opponentOf(parts[k]);
+            glm::dvec3 atPeak(0.0);
+            for (size_t k = 0; k < kBandParts; ++k) {
+              const auto& relative = weights.relative[k];
+              atPeak += glm::dvec3(relative[0], relative[1], relative[2]) * opponentOf(parts[k]);
+            }
+            normalised = atPeak * glm::dvec3(weights.peak[0], weights.peak[1], weights.peak[2]);
+            if (temporal_)
+              for (int c = 0; c < 3; ++c) content.contrast[static_cast<size_t>(c)].at(x, y) = atPeak[c];
           } else {
             const std::array<double, 3> s = sensitivity_->at(level, v, luminance.at(x, y));
             normalised = opponent * glm::dvec3(s[0], s[1], s[2]);
@@ -296,7 +302,7 @@ class Predictor {
     keep("contrast_" + suffix, contrast);
     keep("velocity_" + suffix, {&velocity});
     keep("response_" + suffix, response);
-    content.contrast = std::move(contrast);
+    if (!(isFitted_ && temporal_)) content.contrast = std::move(contrast);
     content.luminance = std::move(luminance);
     return response;
   }

@@ -122,7 +122,7 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
 
 void Sensitivity::fitWeights(const PoppingModel& model, const DisplayProfile& display,
                              const PoppingSettings& settings) {
-  constexpr double kSlowest = 0.05, kFastest = 64.0, kDarkest = 0.01;
+  constexpr double kSlowest = 0.1, kFastest = 64.0, kDarkest = 0.01;
   BandWeights::Setup setup;
   setup.bands = settings.bands;
   setup.minkowskiExponent = settings.minkowskiExponent;
@@ -149,14 +149,13 @@ void Sensitivity::fitWeights(const PoppingModel& model, const DisplayProfile& di
   }
 }
 
-std::array<std::array<double, 3>, kBandParts> Sensitivity::weights(int level, double velocityDegS,
-                                                                   double luminanceCdM2) const {
-  const std::array<double, 3> peak = at(level, velocityDegS, luminanceCdM2);
-  std::array<std::array<double, 3>, kBandParts> out{};
+Sensitivity::PartWeights Sensitivity::weights(int level, double velocityDegS, double luminanceCdM2) const {
+  PartWeights out;
+  out.peak = at(level, velocityDegS, luminanceCdM2);
   for (size_t c = 0; c < 3; ++c) {
+    out.peak[c] = std::max(out.peak[c], BandWeights::kLeastSensitivity);
     const auto relative = weights_[c]->at(level, velocityDegS, luminanceCdM2);
-    for (size_t k = 0; k < kBandParts; ++k)
-      out[k][c] = relative[k] * std::max(peak[c], BandWeights::kLeastSensitivity);
+    for (size_t k = 0; k < kBandParts; ++k) out.relative[k][c] = relative[k];
   }
   return out;
 }

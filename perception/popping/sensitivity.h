@@ -40,10 +40,15 @@ class Sensitivity {
               bool tables);
   /// Of level `level` at its peak, at a retinal velocity and adaptation luminance; finite, >= 0.
   std::array<double, 3> at(int level, double velocityDegS, double luminanceCdM2) const;
-  /// What the contrasts of a level's parts are multiplied by, [part][channel], if weights are fitted; of any
-  /// sign.
-  std::array<std::array<double, 3>, kBandParts> weights(int level, double velocityDegS,
-                                                        double luminanceCdM2) const;
+  /// If weights are fitted: the contrasts of a level's parts times `relative`, [part][channel], of any sign,
+  /// add up to a contrast at the level's peak, which is seen with the sensitivity `peak`.
+  struct PartWeights {
+    std::array<std::array<double, 3>, kBandParts> relative{};
+    std::array<double, 3> peak{};
+  };
+  PartWeights weights(int level, double velocityDegS, double luminanceCdM2) const;
+  /// Relative weights of the parts, by channel; their nodes are alike.
+  const std::array<std::shared_ptr<const BandWeights>, 3>& partWeights() const { return weights_; }
 
  private:
   /// One channel's model. How it is evaluated depends on its inputs.

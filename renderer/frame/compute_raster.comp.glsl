@@ -66,6 +66,9 @@ const float kBeyondCentre = 0.5;  // pixels that samples lie from the centre at 
 const float kBeyondCentre = 0.0;
 #endif
 
+#ifdef LISTED
+layout(std430, binding = kRasterCountBuffer) readonly buffer Count { RasterCount listed_; };
+#endif
 uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
 
@@ -349,7 +352,11 @@ uint regionIndex = 0u;
 uint chosenTriangle(uint n) { return keptTriangles[n]; }
 uint chosenCount() { return kept.pixels; }
 #else
+#ifdef LISTED
+uint chosenCount() { return listed_.triangles; }
+#else
 uint chosenCount() { return triangleCount; }
+#endif
 // Number in the scene of the n-th triangle drawn. Finds its region.
 uint chosenTriangle(uint n) {
   if (rangeCount == 0) return n;

@@ -25,14 +25,18 @@ Sharing sharingOf(uint32_t triangles, glm::ivec2 sizePx) {
   return int64_t{kShared.lanes} * triangles <= int64_t{2} * sizePx.x * sizePx.y ? kShared : kAlone;
 }
 
-const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels,
-                           const Sharing& sharing = kShared) {
+const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels, int vertexWords,
+                           const Sharing& sharing) {
   gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"},
                                {"SMALL_LANES", std::to_string(sharing.lanes)},
                                {"SMALL_PIXELS", std::to_string(sharing.pixels)}};
   if (large) defines["LARGE"] = "1";
   if (ids) defines["IDS"] = "1";
   if (peels) defines["PEEL"] = "1";
+  if (vertexWords > 0) {
+    defines["LISTED"] = "1";
+    defines["POSITION_WORDS"] = std::to_string(vertexWords) + "u";
+  }
   return context.programs().compute("renderer/frame/compute_raster.comp.glsl", defines);
 }
 
@@ -44,8 +48,16 @@ Raster chosenRaster(Raster raster, const gl::Context& context) {
 }
 
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels)
-    : smallDepth_{&program(context, false, false, peels), &program(context, false, false, peels, kAlone)},
-      largeDepth_(program(context, true, false, peels)),
+    : ComputeRaster(context, sizePx, withIds, peels, 0) {}
+
+ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords)
+    : ComputeRaster(context, sizePx, true, false, vertexWords) {}
+
+ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels,
+                             int vertexWords)
+    : smallDepth_{&program(context, false, false, peels, vertexWords, kShared),
+                  &program(context, false, false, peels, vertexWords, kAlone)},
+      largeDepth_(program(context, true, false, peels, vertexWords, kShared)),
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
                                          withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
@@ -56,8 +68,9 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withI
   queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (!withIds) return;
-  smallIds_ = {&program(context, false, true, peels), &program(context, false, true, peels, kAlone)};
-  largeIds_ = &program(context, true, true, peels);
+  smallIds_ = {&program(context, false, true, peels, vertexWords, kShared),
+               &program(context, false, true, peels, vertexWords, kAlone)};
+  largeIds_ = &program(context, true, true, peels, vertexWords, kShared);
   ids_.emplace(gl::Format::R32UI, sizePx);
   idBits_.emplace(depthBits_.bytes(), nullptr);
   idBits_->clearUint(kNoTriangle);
@@ -67,47 +80,71 @@ int64_t ComputeRaster::bytes() const {
   return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() + idBits_->bytes() : 0);
 }
 
-void ComputeRaster::pass(const Programs& small, const gl::Program& large, uint32_t triangleCount) const {
-  constexpr int kPerRow = 1 << 20;  // a dispatch has at most 65,535 groups per dimension
+void ComputeRaster::dispatchSmall(const Programs& small, uint32_t triangleCount) const {
+  constexpr int64_t kPerRow = kRasterRowInvocations;
   const int lanes = sharingOf(triangleCount, depth_.sizePx()).lanes;
   const int64_t invocations = int64_t{lanes} * triangleCount;
-  small[lanes == kShared.lanes ? 0 : 1]->dispatch({static_cast<int>(std::min<int64_t>(invocations, kPerRow)),
+  small[lanes == kShared.lanes ? 0 : 1]->dispatch({static_cast<int>(std::min(invocations, kPerRow)),
                                                    static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
                                                   {kRasterGroup, 1});
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  large.dispatch({kLargeGroups, 1}, {1, 1});
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
-                         const DepthPeel& peel) const {
-  geometry.bindStorage();
-  if (geometry.ranges) geometry.ranges->ranges().bindStorage(kRasterRangesBuffer);
+template <class Small>
+void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) const {
   queue_.bindStorage(kRasterQueueBuffer);
   depthBits_.bindStorage(kRasterDepthsBuffer);
   depth_.bindImage(kRasterDepthImage, gl::Access::Write);
-  if (peel.previous) peel.previous->bindTexture(kRasterPreviousDepthUnit);
   for (const gl::Program* each :
        {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_}) {
     if (!each) continue;
     each->set("anchorToClip", clip);
     each->set("near", static_cast<float>(near));
     each->set("sizePx", depth_.sizePx());
-    each->set("peelBias", static_cast<float>(peel.bias));
-    each->set("triangleCount", geometry.triangleCount());
-    each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
   }
-  pass(smallDepth_, largeDepth_, geometry.triangleCount());
+  const auto pass = [&](const Programs& programs, const gl::Program& large) {
+    small(programs);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    large.dispatch({kLargeGroups, 1}, {1, 1});
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  };
+  pass(smallDepth_, largeDepth_);
   if (ids_) {
     idBits_->bindStorage(kRasterIdsBuffer);
     ids_->bindImage(kRasterIdsImage, gl::Access::Write);
     requeue_.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    pass(smallIds_, *largeIds_, geometry.triangleCount());
+    pass(smallIds_, *largeIds_);
   }
   finish_.set("sizePx", depth_.sizePx());
   finish_.dispatch(depth_.sizePx(), {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
+                         const DepthPeel& peel) const {
+  geometry.bindStorage();
+  if (geometry.ranges) geometry.ranges->ranges().bindStorage(kRasterRangesBuffer);
+  if (peel.previous) peel.previous->bindTexture(kRasterPreviousDepthUnit);
+  for (const gl::Program* each :
+       {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_}) {
+    if (!each) continue;
+    each->set("peelBias", static_cast<float>(peel.bias));
+    each->set("triangleCount", geometry.triangleCount());
+    each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
+  }
+  run(clip, near, [&](const Programs& programs) { dispatchSmall(programs, geometry.triangleCount()); });
+}
+
+void ComputeRaster::drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const {
+  triangles.vertices.bindStorage(kScenePositionsBuffer);
+  triangles.indices.bindStorage(kSceneIndicesBuffer);
+  triangles.count.bindStorage(kRasterCountBuffer);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, triangles.count.id());
+  run(clip, near, [&](const Programs& programs) {
+    programs[1]->use();
+    glDispatchComputeIndirect(0);
+  });
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 }  // namespace limen::frame

@@ -34,6 +34,12 @@ struct DepthPeel {
   double bias = 0.0;  ///< smallest extra distance of what is kept, as a share of the distance
 };
 
+/// Triangles that the GPU has made: three indices each.
+struct ListedTriangles {
+  const gl::Buffer &vertices, &indices;
+  const gl::Buffer& count;  ///< RasterCount (frame_bindings.h)
+};
+
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
 /// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views
 /// without a far plane.
@@ -49,9 +55,14 @@ class ComputeRaster {
  public:
   /// `peels`: draw() is given what to peel off.
   ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels = false);
+  /// For drawListed() alone, with ids: `vertexWords` floats a vertex, of which the first three are its
+  /// position.
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords);
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
   void draw(const Geometry& geometry, const glm::mat4& clip, double near, const DepthPeel& peel = {}) const;
+  /// An indirect dispatch: the host need not know how many there are. One invocation a triangle.
+  void drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const;
 
   const gl::Texture& depth() const { return depth_; }  ///< R32F
   const gl::Texture& ids() const { return *ids_; }     ///< R32UI
@@ -60,7 +71,11 @@ class ComputeRaster {
  private:
   /// Of small triangles that invocations share, and of those of one invocation each.
   using Programs = std::array<const gl::Program*, 2>;
-  void pass(const Programs& small, const gl::Program& large, uint32_t triangleCount) const;
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels, int vertexWords);
+  /// Both passes; `small` dispatches one of the programs that it is given over all triangles.
+  template <class Small>
+  void run(const glm::mat4& clip, double near, const Small& small) const;
+  void dispatchSmall(const Programs& small, uint32_t triangleCount) const;
 
   Programs smallDepth_, smallIds_ = {};
   const gl::Program &largeDepth_, &finish_, &requeue_;

@@ -52,7 +52,16 @@ struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the ba
 #ifdef __cplusplus
 static_assert(sizeof(RasterQueueHeader) == 16);
 #endif
+// Triangles that the GPU has listed itself, and an indirect dispatch over them.
+struct RasterCount {  // std430
+  uint groupsX, groupsY, groupsZ;
+  uint triangles;
+};
+#ifdef __cplusplus
+static_assert(sizeof(RasterCount) == 16 && offsetof(RasterCount, triangles) == 12);
+#endif
 const int kRasterGroup = 64;
+const uint kRasterCountBuffer = 7u;
 const uint kRasterDepthsBuffer = 4u;
 const uint kRasterIdsBuffer = 5u;
 const uint kRasterQueueBuffer = 3u;

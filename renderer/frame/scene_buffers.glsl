@@ -6,8 +6,13 @@ layout(std430, binding = kScenePositionsBuffer) readonly buffer Positions { floa
 layout(std430, binding = kSceneIndicesBuffer) readonly buffer Indices { uint sceneIndices[]; };
 layout(std430, binding = kSceneAlbedosBuffer) readonly buffer Albedos { uint sceneAlbedos[]; };
 
+#ifndef POSITION_WORDS
+#define POSITION_WORDS 3u  // floats of a vertex; the first three are its position
+#endif
+
 vec3 scenePosition(uint vertex) {
-  return vec3(scenePositions[3u * vertex], scenePositions[3u * vertex + 1u], scenePositions[3u * vertex + 2u]);
+  const uint first = POSITION_WORDS * vertex;
+  return vec3(scenePositions[first], scenePositions[first + 1u], scenePositions[first + 2u]);
 }
 
 uvec3 sceneTriangle(uint triangle) {

@@ -12,10 +12,13 @@
 #pragma once
 
 #ifdef __cplusplus
+#include <cmath>
 #include <glm/glm.hpp>
 #define LIMEN_SLOTS inline
 namespace limen::surfaces {
+using glm::ivec3;
 using glm::ivec4;
+using std::sqrt;
 #else
 #define LIMEN_SLOTS
 #endif
@@ -263,6 +266,38 @@ LIMEN_SLOTS int patternIndex(PatternPlan plan, int slot) {
   }
   if (turned == 2) return patternInnerSlot(plan, strip, a);
   return patternOuterSlot(plan, second, turned == 0 ? b : b + 1);
+}
+
+// Vertex slot of a corner (0 to 2) of a triangle, counter-clockwise: the same triangles one by one.
+LIMEN_SLOTS int patternCorner(PatternPlan plan, int triangle, int corner) {
+  const int ofCore = plan.rectangle == 1 ? 2 * plan.rows * plan.cols : plan.rows * plan.rows;
+  if (triangle >= ofCore) return patternIndex(plan, plan.coreIndices + 4 * (triangle - ofCore) + corner);
+  int row, at, first;
+  if (plan.rectangle == 1) {
+    row = triangle / (2 * plan.cols);
+    at = triangle - row * 2 * plan.cols;
+    first = row * (2 * plan.cols + 3);
+  } else {
+    row = int(sqrt(float(triangle) + 0.5F));
+    if (row * row > triangle) --row;
+    if ((row + 1) * (row + 1) <= triangle) ++row;
+    at = triangle - row * row;
+    first = row * (row + 3);
+  }
+  // Every other triangle of a strip is turned.
+  return patternIndex(plan, first + at + (at % 2 == 1 && corner < 2 ? 1 - corner : corner));
+}
+
+// All corners of one, without the strips' arithmetic where there are most of them.
+LIMEN_SLOTS ivec3 patternTriangle(PatternPlan plan, int triangle) {
+  if (plan.rectangle == 1 && triangle < 2 * plan.rows * plan.cols) {
+    const int row = triangle / (2 * plan.cols), at = triangle - row * 2 * plan.cols, width = plan.cols + 1;
+    const int below = row * width + at / 2, above = below + width;
+    if (at % 2 == 0) return ivec3(above, below, above + 1);
+    return ivec3(above + 1, below, below + 1);
+  }
+  return ivec3(patternCorner(plan, triangle, 0), patternCorner(plan, triangle, 1),
+               patternCorner(plan, triangle, 2));
 }
 
 #ifdef __cplusplus

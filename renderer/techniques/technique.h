@@ -14,6 +14,10 @@
 #include "renderer/frame/frame.h"
 #include "renderer/gl/texture.h"
 
+namespace limen::surfaces {
+struct TessellatedSurface;
+}
+
 namespace limen::techniques {
 
 /// What a technique makes. Products of one kind can be compared.
@@ -61,6 +65,9 @@ class Technique {
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
+  /// The scene's curved surfaces as last drawn; null unless TechniqueInfo::tessellates. Called after render(),
+  /// outside the timed frames; waits for the GPU.
+  virtual std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame&) { return nullptr; }
   /// Pictures that explain the product, for artefacts and reports; called outside the timed frames, after
   /// render() and count(); may wait for the GPU.
   virtual std::map<std::string, PictureMaker> pictures() const { return {}; }
@@ -77,6 +84,7 @@ struct TechniqueInfo {
   ParameterList parameters = {};
   std::vector<std::string> needs = {};  ///< scene traits without which it cannot run ("rectangular_light")
   bool reference = false;               ///< a reference to compare with
+  bool tessellates = false;             ///< has a tessellation() for metrics of the surface
   /// Runs on the CPU: its time is wall time on any machine.
   bool onCpu = false;
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.

@@ -6,6 +6,7 @@
 
 #include "experiments/base/hash.h"
 #include "perception/popping/comparator.h"
+#include "perception/popping/input.h"
 #include "perception/popping/predictor.h"
 #include "perception/popping/weights.h"
 #include "renderer/frame/g_buffer.h"
@@ -18,8 +19,22 @@
 namespace limen::study {
 namespace {
 
-/// Displacements and weights of a change in a moving view (Schwarz 2009, section 10.3.5).
-void addMotion(perception::PoppingInput& input, frame::Frame& parent,
+/// Light of a picture of `input` as the display shows it.
+Image lightOf(const perception::PoppingInput& input, const Image& shown,
+              const perception::DisplayProfile& display) {
+  Image out(shown.width, shown.height, 3);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const std::array<double, 3> light = perception::pixelLight(input, shown, display, x, y);
+      for (int c = 0; c < 3; ++c) out.at(x, y, c) = static_cast<float>(light[static_cast<size_t>(c)]);
+    }
+  return out;
+}
+
+/// Displacements and weights of a change in a moving view (Schwarz 2009, section 10.3.5). `shownBefore`: the
+/// frame before the change as shown; empty: flicker, if any, is found in single samples.
+void addMotion(perception::PoppingInput& input, const Image& shownBefore,
+               const perception::DisplayProfile& display, frame::Frame& parent,
                const frame::LodPairSetting& pairSetting,
                const std::pair<scene::LodSelection, scene::LodSelection>& levels,
                const perception::PoppingSettings& settings) {
@@ -36,6 +51,13 @@ void addMotion(perception::PoppingInput& input, frame::Frame& parent,
     input.disocclusion = perception::disocclusionWeight(views, settings.disocclusionSettings());
   }
   // Flicker is that of the level before the change.
+  if (!shownBefore.data.empty()) {
+    const Image before = lightOf(input, input.predicted, display);
+    input.flicker = perception::flickerWeight(
+        {lightOf(input, input.actual, display), before, before, lightOf(input, shownBefore, display),
+         predicted.displacement->read(), predicted.previousDepth->read(), predicted.depthBefore->read()},
+        settings.flickerSettings());
+  }
   if (pairSetting.previousColour)
     input.flicker = perception::flickerWeight(
         {actual.colour->read(), predicted.colour->read(), predicted.shadedBefore->read(),
@@ -156,9 +178,13 @@ PredictedPopping Predictor::make(const Stimulus& stimulus) {
     frame::LodPairSetting pair;
     pair.dtS = 1.0 / display_.refreshHz;
     pair.shaded = shadingOf(stimulus);
-    pair.previousColour = settings.usesFlicker() && stimulus.levels.has_value();
+    const bool usesFlicker = settings.usesFlicker() && stimulus.levels.has_value();
+    // Highlights depend on the eye: shading as the previous frame saw it is known at single samples only.
+    pair.previousColour = usesFlicker && pair.shaded.specular > 0.0;
+    Image shownBefore;
+    if (usesFlicker && !pair.previousColour) shownBefore = renderer.readBackState(timeS - pair.dtS, false);
     frame.begin();
-    addMotion(input, frame, pair, levels, settings);
+    addMotion(input, shownBefore, display_, frame, pair, levels, settings);
     frame.end();
   }
   const perception::PoppingResult result = perception::predictPopping(input, display_, settings);

@@ -25,8 +25,9 @@ struct PredictedPopping {
     bool atCue = true;                 ///< whether the question is about it; true of all without a cue
   };
   /// Version of the figures below, raised when their meaning changes. 1: `rating` and `detectionProbability`
-  /// were those of the region rated highest, cued or not, and the figures of the rest did not exist.
-  static constexpr int kVersion = 2;
+  /// were those of the region rated highest, cued or not, and the figures of the rest did not exist. 2:
+  /// flicker was found in single samples.
+  static constexpr int kVersion = 3;
   /// What the question is about: the region rated highest among those at the cue (see cued_place.h), of all
   /// without a cue. Without such a region, one less than the lowest possible rating of a region, so that it
   /// stays finite.
@@ -66,9 +67,10 @@ class PredictionCache {
 /// Predicts how likely an attending viewer notices the change of stimuli in one window of one display.
 ///
 /// The pictures are those shown, byte for byte: the first frame after the change, and the same frame in the
-/// state before it. In a dynamic sequence displacements, disocclusion and flicker are those of the window's
-/// pixel centres, the previous frame being one display frame earlier; a static one has none. If a technique
-/// changes there is no flicker weight, since there is no separate shading to evaluate it with.
+/// state before it. In a dynamic sequence displacements and disocclusion are those of the window's pixel
+/// centres, the previous frame being one display frame earlier; flicker is that of the pictures as shown, of
+/// pixel centres if there are highlights. A static sequence has none. If a technique changes there is no
+/// flicker weight, since there is no separate shading to evaluate it with.
 class Predictor {
  public:
   /// `popping`: values of perception::PoppingSettings; what is left out takes its default. Throws Error.

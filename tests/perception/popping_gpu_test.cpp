@@ -299,6 +299,7 @@ TEST_F(PoppingGpu, EverySettingMatchesTheReference) {
   with({});
   with({{"model", "schwarz_2009"}});
   with({{"bands.weights", "fitted"}, {"bands.levels.least_peak_cpd", 0.25}});
+  with({{"bands.weights", "fitted"}, {"eye_movement", "none"}});
   for (const char* masking : {"none", "daly", "lubin", "self"}) with({{"masking", masking}});
   with({{"masking.b", 4.0}, {"masking.s", 0.5}});
   with({{"neighbourhood", "extended"}});

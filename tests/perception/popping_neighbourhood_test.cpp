@@ -70,7 +70,7 @@ TEST(PoppingNeighbourhood, ResponsesAreThePublishedForm) {
 
 /// A patch of grating on grey, in a display's light.
 struct Patch {
-  double x, contrast;
+  double x, contrast, y = 0.0;  // from the middle row
 };
 constexpr int kPictureWidth = 320, kPictureHeight = 64;
 constexpr double kTargetX = 80.0, kCyclesPerPx = 0.14;  // the peak of level 1
@@ -80,7 +80,7 @@ Image patches(const std::vector<Patch>& all) {
     for (int x = 0; x < kPictureWidth; ++x) {
       double contrast = 0.0;
       for (const Patch& patch : all) {
-        const double dx = x - patch.x, dy = y - 0.5 * kPictureHeight, r = std::hypot(dx, dy) / 6.0;
+        const double dx = x - patch.x, dy = y - 0.5 * kPictureHeight - patch.y, r = std::hypot(dx, dy) / 6.0;
         if (r >= 1.0) continue;
         const double window = 0.5 + 0.5 * std::cos(std::numbers::pi * r);
         contrast += patch.contrast * window * std::cos(2.0 * std::numbers::pi * kCyclesPerPx * dx);
@@ -121,14 +121,18 @@ double thresholdOf(const std::vector<Patch>& maskers, PoppingSettings settings, 
   return std::sqrt(low * high);
 }
 
-const std::vector<Patch> kBeside = {{kTargetX - 13.0, 0.9}, {kTargetX + 13.0, 0.9}}, kFar = {{280.0, 0.9}};
+const std::vector<Patch> kBeside = {{kTargetX - 13.0, 0.9},
+                                    {kTargetX + 13.0, 0.9},
+                                    {kTargetX, 0.9, -13.0},
+                                    {kTargetX, 0.9, 13.0}},
+                         kFar = {{280.0, 0.9}};
 
 TEST(PoppingNeighbourhood, WhatIsBesideMasksAndWhatIsFarDoesNot) {
   // 1.5 deg/s make the patches flicker with 9 Hz, to which both the sustained and the transient mechanism
   // respond.
   for (const double switchDegS : {-1.0, 1.5}) {
     SCOPED_TRACE(switchDegS < 0.0 ? "lasting pictures" : "switch over time");
-    const PoppingSettings masked = maskedSettings({.radiusPx = 4}), pointwise;
+    const PoppingSettings masked = maskedSettings({.radiusPx = 6}), pointwise;
     const double alone = thresholdOf({}, masked, switchDegS),
                  nearby = thresholdOf(kBeside, masked, switchDegS),
                  alonePointwise = thresholdOf({}, pointwise, switchDegS);

@@ -86,6 +86,7 @@ MetricResult measureChange(const ComparisonInput& input, const ChangeSettings& s
 
 const RegisteredMetric<ChangeSettings> kChangeRegistered{
     {.name = kChangeName,
+     .version = 2,
      .summary = "visible change from frame to frame of a path of camera or light beyond the reference's own "
                 "(flicker, popping, swimming): the figures of jnd, each the largest of all steps",
      .source = "Schwarz 2009, section 10.3, for the model",

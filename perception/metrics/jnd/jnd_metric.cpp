@@ -48,6 +48,7 @@ MetricResult measureJnd(const ComparisonInput& input, const JndSettings& setting
 
 const RegisteredMetric<JndSettings> kJndRegistered{
     {.name = kJndName,
+     .version = 2,
      .summary =
          "visible difference on a display, by the popping predictor: median, 95th percentile, largest, "
          "share of pixels above 1 JND, rating, probability of detection",

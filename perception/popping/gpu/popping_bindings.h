@@ -45,6 +45,7 @@ const uint kResponseSensitivitiesUnit = 2u;
 const uint kResponseSteadyUnit = 6u;
 const uint kResponseOnsetUnit = 7u;
 const uint kResponseNormalisedUnit = 8u;
+const uint kResponsePartWeightsUnit = 9u;
 const uint kNormalisedImage = 0u;
 
 // Differences of a level.

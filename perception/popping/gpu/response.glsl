@@ -11,7 +11,7 @@
 layout(local_size_x = kPoppingGroupX, local_size_y = kPoppingGroupY) in;
 
 layout(binding = kResponseConesUnit) uniform sampler2DArray cones;          // or A, RG, YV of DKL space; layer: 0 actual, 1 predicted
-// Weights of the parts' contrasts: lg v across, lg L down, parts and then levels one below the other.
+// Sensitivities at a level's peak: lg v across, lg L down, levels one below the other.
 layout(binding = kResponseSensitivitiesUnit) uniform sampler2D sensitivities;
 layout(binding = kPoppingCountersBuffer, std430) buffer Counters { PoppingCounters counters; };
 layout(binding = kMeanLuminanceBuffer, std430) readonly buffer Mean { float meanLuminance[2]; };
@@ -21,8 +21,16 @@ uniform int level, adaptationLevel, adaptationSource, eyeMovement;
 uniform vec2 evenTaps;  // of the upsampler: outer and centre weight at even pixels; odd ones have 1/2, 1/2
 uniform vec3 luminanceOfCones;
 uniform float epsilon, gain, greyGain, fixedLuminance, leastVelocity, degSPerPx;
-uniform ivec2 tableSize;          // nodes of velocity and luminance
-uniform vec2 tableLow, tablePer;  // log2 of the first node; nodes per octave
+struct TableGrid {
+  ivec2 size;     // nodes of velocity and luminance
+  vec2 low, per;  // log2 of the first node; nodes per octave
+};
+uniform TableGrid table;
+#ifdef FITTED_WEIGHTS
+// Of parts and then levels: their contrasts times these add up to a contrast at the level's peak.
+layout(binding = kResponsePartWeightsUnit) uniform sampler2D partWeights;
+uniform TableGrid partTable;
+#endif
 
 const ivec2 kNeighbours = ivec2(kPoppingGroupX, kPoppingGroupY) / 2 + 2;  // pixels of the next level around a group
 const int kNeighbourCount = kNeighbours.x * kNeighbours.y;
@@ -30,12 +38,9 @@ shared vec4 next[2 * kNeighbourCount];   // the next level
 shared vec4 after[2 * kNeighbourCount];  // the one after it, at the next one's size
 shared uint groupGuarded;
 #ifdef FITTED_WEIGHTS
-const int kParts = 3;
 const ivec2 kOwn = ivec2(kPoppingGroupX, kPoppingGroupY) + 4;  // pixels of the level itself, two more on each side
 const int kOwnCount = kOwn.x * kOwn.y;
 shared vec4 ownLevel[2 * kOwnCount];
-#else
-const int kParts = 1;
 #endif
 
 // Weights of pixels m - 1, m, m + 1 of the coarser level for a pixel at 2 m or 2 m + 1.
@@ -102,18 +107,14 @@ float luminanceAt(int frame, ivec2 pixel) {
 }
 
 // Of block `block` of a table over velocity and luminance.
-vec4 tableAt(sampler2D table, float velocity, float luminance, int block) {
-  vec2 place = clamp((log2(vec2(velocity, luminance)) - tableLow) * tablePer, vec2(0.0), vec2(tableSize - 1));
-  ivec2 node = min(ivec2(place), tableSize - 2);
+vec4 tableAt(sampler2D values, TableGrid grid, float velocity, float luminance, int block) {
+  vec2 place = clamp((log2(vec2(velocity, luminance)) - grid.low) * grid.per, vec2(0.0), vec2(grid.size - 1));
+  ivec2 node = min(ivec2(place), grid.size - 2);
   vec2 t = place - vec2(node);
-  node.y += block * tableSize.y;
-  vec4 above = mix(texelFetch(table, node, 0), texelFetch(table, node + ivec2(1, 0), 0), t.x);
-  vec4 below = mix(texelFetch(table, node + ivec2(0, 1), 0), texelFetch(table, node + ivec2(1, 1), 0), t.x);
+  node.y += block * grid.size.y;
+  vec4 above = mix(texelFetch(values, node, 0), texelFetch(values, node + ivec2(1, 0), 0), t.x);
+  vec4 below = mix(texelFetch(values, node + ivec2(0, 1), 0), texelFetch(values, node + ivec2(1, 1), 0), t.x);
   return mix(above, below, t.y);
-}
-
-vec3 sensitivityAt(float velocity, float luminance, int part) {
-  return tableAt(sensitivities, velocity, luminance, level * kParts + part).xyz;
 }
 
 // Opponent contrasts from those of the planes.
@@ -172,13 +173,24 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
         twice = fma(vec3(kTwice[dx + 2] * kTwice[dy + 2]), value, twice);
         once = fma(vec3(kOnce[dx + 2] * kOnce[dy + 2]), value, once);
       }
-    precise vec3 normalised = opponentOf((own.xyz - once) / denominator) * sensitivityAt(velocity, luminance, 0);
-    normalised = fma(opponentOf((once - twice) / denominator), sensitivityAt(velocity, luminance, 1), normalised);
-    normalised = fma(opponentOf((twice - finer) / denominator), sensitivityAt(velocity, luminance, 2), normalised);
+    vec3 weights[3];
+    for (int part = 0; part < 3; ++part)
+      weights[part] = tableAt(partWeights, partTable, velocity, luminance, 3 * level + part).xyz;
+    precise vec3 atPeak = opponentOf((own.xyz - once) / denominator) * weights[0];
+    atPeak = fma(opponentOf((once - twice) / denominator), weights[1], atPeak);
+    atPeak = fma(opponentOf((twice - finer) / denominator), weights[2], atPeak);
+    precise vec3 normalised =
+        atPeak * max(tableAt(sensitivities, table, velocity, luminance, level).xyz, vec3(LEAST_SENSITIVITY));
+#ifdef TEMPORAL_CHANNELS
+    contrasts[frame] = atPeak;
+#endif
     vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
 #else
     precise vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
-    precise vec3 normalised = contrast * sensitivityAt(velocity, luminance, 0);
+    precise vec3 normalised = contrast * tableAt(sensitivities, table, velocity, luminance, level).xyz;
+#ifdef TEMPORAL_CHANNELS
+    contrasts[frame] = contrast;
+#endif
 #endif
 #if defined(STORE_NORMALISED)
 #ifndef TEMPORAL_CHANNELS
@@ -193,7 +205,6 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
     if (frame == shownFrame) shown = Stages(contrast, response, luminance, velocity);
 #endif
 #ifdef TEMPORAL_CHANNELS
-    contrasts[frame] = contrast;
     luminances[frame] = luminance;
     screenDegS += 0.5 * own.w * degSPerPx;
 #endif
@@ -202,8 +213,8 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   float retinalDegS = retinalVelocity(screenDegS);
   SwitchContent contents[2];
   for (int frame = 0; frame < frameCount; ++frame)
-    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, retinalDegS, luminances[frame], level),
-                                    tableAt(onsetGains, retinalDegS, luminances[frame], level));
+    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, table, retinalDegS, luminances[frame], level),
+                                    tableAt(onsetGains, table, retinalDegS, luminances[frame], level));
   SwitchExtremes extremes = switchExtremes(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
 #ifdef STORE_NORMALISED
   imageStore(normalisedImage, ivec3(pixel, 0), extremes.after);

@@ -55,11 +55,21 @@ float visibilityOfNone(vec4 p, ivec2 pixel, float visibility) {
 
 #endif
 #ifndef SPLIT_CLASSIFY
-// Adds this invocation's rows of all noted areas to what is gathered; false: more iterations than the driver allows.
-bool gatherLayers(ivec2 pixel) {
+// Adds this invocation's rows of all noted areas to what is gathered; false: more iterations than the driver allows. Between
+// layers the invocations of a pixel join, since what one layer hides whole needs no other: all of a group call it, those without a
+// pixel with `listed` false.
+bool gatherLayers(ivec2 pixel, bool listed) {
   uint texels = 0u;
   float coarsest = 0.0;
+  bool whole = true;
   for (int layer = 0; layer < MAP_LAYERS; ++layer) {
+#if LANES > 1
+    if (layer > 0) {
+      joinLanes();
+      barrier();  // before what is shared is written again
+    }
+#endif
+    if (!listed || !whole) continue;
     Area area;
     const float level = notedArea(pixel, layer, area);
     if (level < 0.0) continue;
@@ -71,10 +81,10 @@ bool gatherLayers(ivec2 pixel) {
     texels += areaTexels;
     coarsest = max(coarsest, level);
     if (!isSaturated()) gatherOccluders(p, area, first);
-    if (pixelClass == kCutShort) return false;
+    whole = pixelClass != kCutShort;
   }
   areaTexels = texels;
   levelUsed = coarsest;
-  return true;
+  return whole;
 }
 #endif

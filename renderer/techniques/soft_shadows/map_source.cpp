@@ -5,12 +5,13 @@
 
 namespace limen::techniques {
 
-MapSource::MapSource(const MapSettings& map, const MapChoice& choice, bool together)
-    : usual_{map.resolution, map.raster}, choice_(choice), together_(together) {}
+MapSource::MapSource(const MapSettings& map, const MapChoice& choice)
+    : usual_{map.resolution, map.raster}, choice_(choice) {}
 
 void MapSource::prepare(const scene::Scene& scene) {
   maps_ = lightMaps(choice_, scene, usual_);
-  if (together_ && std::holds_alternative<PeeledMaps>(choice_))
+  const auto* peeled = std::get_if<PeeledMaps>(&choice_);
+  if (peeled && peeled->passes == LayerPasses::One)
     for (frame::ShadowMapSettings& map : maps_) map.together = static_cast<int>(maps_.size());
   chooseAll();
 }

@@ -13,8 +13,7 @@ namespace limen::techniques {
 /// The shadow maps whose occluders a technique combines, and those that a frame reads.
 class MapSource {
  public:
-  /// `together`: the layers of a peeled map are read by one pass.
-  MapSource(const MapSettings& map, const MapChoice& choice, bool together = true);
+  MapSource(const MapSettings& map, const MapChoice& choice);
 
   /// Throws Error if the scene has no such maps.
   void prepare(const scene::Scene& scene);
@@ -41,7 +40,6 @@ class MapSource {
  private:
   frame::ShadowMapSettings usual_;
   MapChoice choice_;
-  bool together_;
   std::vector<frame::ShadowMapSettings> maps_;
   std::vector<bool> isDue_;  ///< of each map
   size_t nextUpdate_ = 0;

@@ -215,7 +215,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
   if (!findAreas(pixel, visibility)) return visibilityOfNone(p, pixel, visibility);
   clearGathered();
   hideBehindPlane(p);
-  if (!gatherLayers(pixel)) return uintBitsToFloat(0x7fc00000u);
+  if (!gatherLayers(pixel, true)) return uintBitsToFloat(0x7fc00000u);
 #ifdef KEEP_MASKS
   keepGathered(pixel);
 #endif

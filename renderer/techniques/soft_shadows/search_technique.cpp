@@ -21,7 +21,7 @@ SearchTechnique::SearchTechnique(SearchParts parts)
     : pass_(std::move(parts.shader), std::move(parts.pass), {}),
       search_(parts.search, parts.levels, parts.occluders),
       quality_(parts.levels, parts.passes),
-      maps_(parts.search.map, parts.maps, parts.layersTogether),
+      maps_(parts.search.map, parts.maps),
       budget_(mostOf(parts.search.budget)),
       budgets_(makeBudgetDriver(parts.search.budget)),
       gathering_(std::move(parts.gathering)),

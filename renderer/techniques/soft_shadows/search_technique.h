@@ -22,8 +22,6 @@ struct SearchParts {
   PassSettings passes;
   OccluderChoice occluders;
   MapChoice maps;
-  /// The layers of a peeled map are read by one pass; otherwise each by its own, as other maps are.
-  bool layersTogether = true;
   std::unique_ptr<Gathering> gathering;
   std::unique_ptr<ProductStage> last;  ///< null: the visibility as gathered
 };

@@ -33,5 +33,9 @@ void main() {
   } else {
     plan = trianglePattern(mine, cornerFix);
   }
+#ifdef LISTS
+  slotCounts[number] = uvec2(plan.vertices, plan.triangles);
+#else
   slotCounts[number] = uvec2(plan.vertices, plan.indices);
+#endif
 }

@@ -193,9 +193,8 @@ vec3 fieldNormal(TessellatedPatch patch_, int n, DomainPoint point) {
 }
 
 // As a vertex of the picture.
-TessellatedVertex surfaceVertex(TessellatedPatch patch_, ivec4 sample_) {
+TessellatedVertex surfaceVertex(TessellatedPatch patch_, DomainPoint point) {
   const uint shape = shapeOf(patch_);
-  const DomainPoint point = domainPoint(shape, sample_);
   const SurfaceJet jet = surfaceJet(patch_, point);
   precise const vec3 position = jet.p.xyz / jet.p.w;
   TessellatedVertex vertex;

@@ -51,15 +51,21 @@ gl::ShaderDefines withRule(gl::ShaderDefines defines, const FactorSettings& sett
   return defines;
 }
 
+gl::ShaderDefines withLists(gl::ShaderDefines defines, bool lists) {
+  if (lists) defines["LISTS"] = "1";
+  return defines;
+}
+
 }  // namespace
 
-FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings)
+FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
+                       bool lists)
     : patches_(patches),
       settings_(settings),
       factorsProgram_(frame.context().programs().compute("renderer/techniques/tessellation/factors.comp.glsl",
                                                          withRule(patches.defines(), settings))),
       countsProgram_(frame.context().programs().compute("renderer/techniques/tessellation/counts.comp.glsl",
-                                                        patches.defines())),
+                                                        withLists(patches.defines(), lists))),
       own_(int64_t{patches.count()} * 4, nullptr),
       factors_(int64_t{patches.count()} * 4, nullptr),
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr) {}

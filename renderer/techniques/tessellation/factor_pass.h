@@ -38,7 +38,9 @@ struct FactorSettings {
 /// one, and how many vertices and indices each patch's pattern takes.
 class FactorPass {
  public:
-  FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings);
+  /// `lists`: triangles are counted, not indices of strips.
+  FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
+             bool lists = false);
   /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 

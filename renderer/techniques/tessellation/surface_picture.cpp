@@ -27,6 +27,10 @@ std::vector<scene::TriangleRange> meshRanges(const scene::Scene& scene) {
 
 SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading,
                                const std::string& pass)
+    : SurfacePicture(frame, shading, pass, frame::Raster::Hardware) {}
+
+SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading,
+                               const std::string& pass, frame::Raster raster)
     : shading_(shading),
       pass_(pass),
       meshProgram_(frame.context().programs().get(
@@ -40,7 +44,17 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
       picture_(gl::Format::RGBA32F, frame.sizePx()),
       framebuffer_({&ids_, &normals_}, &depth_) {
   mesh_.set(meshRanges(frame.scene()));
-  frame.passes().setBytesHeld(pass_ + "/raster", ids_.bytes() + normals_.bytes() + depth_.bytes());
+  if (raster == frame::Raster::Compute) {
+    constexpr int kVertexWords = sizeof(TessellatedVertex) / sizeof(float);
+    gl::Context& context = frame.context();
+    const gl::Program& resolve =
+        context.programs().compute("renderer/techniques/tessellation/surface_resolve.comp.glsl");
+    compute_.emplace(Compute{resolve, frame::ComputeRaster(context, frame.sizePx(), true),
+                             frame::ComputeRaster(context, frame.sizePx(), kVertexWords)});
+  }
+  frame.passes().setBytesHeld(pass_ + "/raster",
+                              ids_.bytes() + normals_.bytes() + depth_.bytes() +
+                                  (compute_ ? compute_->mesh.bytes() + compute_->surface.bytes() : 0));
   frame.passes().setBytesHeld(pass_ + "/shade", picture_.bytes());
 }
 
@@ -66,6 +80,34 @@ void SurfacePicture::render(frame::Frame& frame, const std::function<void()>& dr
     glDisable(GL_DEPTH_TEST);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
+  shade(frame);
+}
+
+void SurfacePicture::renderListed(frame::Frame& frame, const frame::ListedTriangles& triangles) {
+  {
+    const auto scope = frame.passes().open(pass_ + "/raster");
+    const glm::mat4 clip = frame::anchorToClip(frame);
+    compute_->mesh.draw({frame.gpuScene(), &mesh_, nullptr}, clip, frame::nearPlane(frame));
+    compute_->surface.drawListed(triangles, clip, frame::nearPlane(frame));
+    const gl::Program& resolve = compute_->resolve;
+    resolve.set("sizePx", frame.sizePx());
+    resolve.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+    resolve.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
+    compute_->mesh.ids().bindTexture(kResolveMeshIdsUnit);
+    compute_->mesh.depth().bindTexture(kResolveMeshDepthUnit);
+    compute_->surface.ids().bindTexture(kResolveSurfaceIdsUnit);
+    compute_->surface.depth().bindTexture(kResolveSurfaceDepthUnit);
+    ids_.bindImage(kResolveIdsImage, gl::Access::Write);
+    normals_.bindImage(kResolveNormalsImage, gl::Access::Write);
+    triangles.vertices.bindStorage(kResolveVerticesBuffer);
+    triangles.indices.bindStorage(kResolveIndicesBuffer);
+    resolve.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+  shade(frame);
+}
+
+void SurfacePicture::shade(frame::Frame& frame) {
   const auto scope = frame.passes().open(pass_ + "/shade");
   frame::configureShading(shadeProgram_, frame, shading_);
   ids_.bindTexture(kSurfaceIdsUnit);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "renderer/frame/compute_raster.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/frame/triangle_ranges.h"
@@ -18,17 +19,30 @@ class SurfacePicture {
   /// `pass`: name of the technique's passes.
   SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading, const std::string& pass);
 
+  /// With frame::Raster::Compute, for renderListed() as well.
+  SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading, const std::string& pass,
+                 frame::Raster raster);
+
   /// `draw` draws with any program whose fragment shader is surface.frag.glsl.
   void render(frame::Frame& frame, const std::function<void()>& draw);
+  /// The same by ComputeRaster; vertices are TessellatedVertex.
+  void renderListed(frame::Frame& frame, const frame::ListedTriangles& triangles);
   const gl::Texture& texture() const { return picture_; }
 
  private:
+  struct Compute {
+    const gl::Program& resolve;
+    frame::ComputeRaster mesh, surface;
+  };
+  void shade(frame::Frame& frame);
+
   frame::ShadedSetting shading_;
   std::string pass_;
   const gl::Program &meshProgram_, &shadeProgram_;
   frame::TriangleRanges mesh_;
   gl::Texture ids_, normals_, depth_, picture_;
   gl::Framebuffer framebuffer_;
+  std::optional<Compute> compute_;
 };
 
 }  // namespace limen::techniques

@@ -62,11 +62,20 @@ const uint kSlotCountsBuffer = 5u;
 const uint kSlotOffsetsBuffer = 5u;
 const uint kTotalsBuffer = 6u;
 const uint kVerticesBuffer = 7u;
+const uint kTriangleCountBuffer = 7u;
 const uint kIndicesBuffer = 3u;
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
 const uint kSurfaceNormalsUnit = 1u;
+const uint kResolveMeshIdsUnit = 0u;
+const uint kResolveMeshDepthUnit = 1u;
+const uint kResolveSurfaceIdsUnit = 2u;
+const uint kResolveSurfaceDepthUnit = 3u;
+const uint kResolveIdsImage = 0u;
+const uint kResolveNormalsImage = 1u;
+const uint kResolveVerticesBuffer = 0u;
+const uint kResolveIndicesBuffer = 1u;
 const uint kSurfacePictureImage = 0u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
 

@@ -334,7 +334,7 @@ TEST_F(ViewerUse, PredictionsArePaintedOver) {
   setup.reference = Entry{"soft_shadows/ray_traced", {{"samples", int64_t{64}}}};
   open(setup);
   rest();
-  for (const Overlay overlay : {Overlay::Thresholds, Overlay::Popping}) {
+  for (const Overlay overlay : {Overlay::Thresholds, Overlay::SingleThresholds, Overlay::Popping}) {
     viewer_->execute(command::Predict{overlay});
     rest();
     ASSERT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->overlay);

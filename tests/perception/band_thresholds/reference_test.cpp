@@ -187,5 +187,25 @@ TEST(BandThresholds, TheSingleMapOfTheThesisDoesNotHold) {
   EXPECT_GT(largest, 3.0);
 }
 
+TEST(BandThresholds, RefusesWhatHasNoInverse) {
+  const auto refused = [](const PoppingSettings& predictor) {
+    BandThresholdSettings settings;
+    settings.predictor = predictor;
+    try {
+      BandThresholdModel(settings, display(), kWidth, kHeight);
+    } catch (const Error&) {
+      return true;
+    }
+    return false;
+  };
+  PoppingSettings predictor;
+  EXPECT_FALSE(refused(predictor));
+  predictor.bands.weights = FittedWeights{};
+  EXPECT_TRUE(refused(predictor));
+  predictor = {};
+  predictor.neighbourhood = ExtendedMasking{};
+  EXPECT_TRUE(refused(predictor));
+}
+
 }  // namespace
 }  // namespace limen::perception

@@ -132,11 +132,12 @@ TEST_P(Plausible, CameraSeesFrontFacesWithLightPenumbraAndShadow) {
   EXPECT_GE(mixed + dark, hits / 50);
 }
 
-/// Scenes of levels of detail are about silhouettes before a background and rides, not about penumbrae.
+/// Scenes of levels of detail are about silhouettes before a background and rides, not about penumbrae; of a
+/// sheet of patches nothing casts a shadow.
 std::vector<std::string> scenesOfShadows() {
   std::vector<std::string> names;
   for (const std::string& name : SceneRegistry::instance().names())
-    if (name.rfind("lod/", 0) != 0) names.push_back(name);
+    if (name.rfind("lod/", 0) != 0 && name != "curved/sheet") names.push_back(name);
   return names;
 }
 

@@ -11,6 +11,7 @@
 #include "renderer/surfaces/normal.h"
 #include "tests/renderer/gl/gl_fixture.h"
 #include "tests/renderer/surfaces/bezier_oracle.h"
+#include "tests/renderer/surfaces/bezier_samples_bindings.h"
 
 namespace limen::surfaces {
 namespace {
@@ -52,7 +53,8 @@ class BezierShader : public gl::GlTest {
     const gl::Program& program = programs_->compute("tests/renderer/surfaces/bezier_samples.comp.glsl");
     const gl::Buffer pointBuffer(points), sampleBuffer(samples),
         results(int64_t(places.size() * sizeof(Result)), nullptr);
-    pointBuffer.bindStorage(0), sampleBuffer.bindStorage(1), results.bindStorage(2);
+    pointBuffer.bindStorage(kBezierPointsBuffer), sampleBuffer.bindStorage(kBezierSamplesBuffer);
+    results.bindStorage(kBezierResultsBuffer);
     program.use();
     program.set("count", int(places.size()));
     program.dispatch({int(places.size()), 1}, {64, 1});

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Evaluates patches at given points, for comparison with double precision.
+#include "tests/renderer/surfaces/bezier_samples_bindings.h"
+
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = kBezierPointsBuffer) readonly buffer Points { vec4 points[]; };
 struct Sample {
   ivec4 shape;     // first point, degrees (0 in z: a triangle), 1: by the functions of fixed degree
   ivec4 place;     // i, m, j, n of a rectangle's grid; i, j, m of a triangle's
   vec4 diagonal;   // of the control points, in x
 };
-layout(std430, binding = 1) readonly buffer Samples { Sample samples[]; };
-layout(std430, binding = 2) writeonly buffer Results { vec4 results[]; };  // p, u, v, uu, uv, vv, normal and rung
+layout(std430, binding = kBezierSamplesBuffer) readonly buffer Samples { Sample samples[]; };
+layout(std430, binding = kBezierResultsBuffer) writeonly buffer Results { vec4 results[]; };  // p, u, v, uu, uv, vv, normal and rung
 uniform int count;
 
 int first = 0;

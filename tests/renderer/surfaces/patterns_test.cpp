@@ -75,6 +75,8 @@ void expectSound(Domain domain, const Factors& factors, bool fix) {
   ASSERT_EQ(plan.triangles, counts[1]) << text(factors);
   ASSERT_EQ(plan.indices, counts[2]) << text(factors);
   ASSERT_EQ(static_cast<int>(emitted.triangles.size()), plan.triangles) << text(factors);
+  for (int i = 0; i < plan.triangles; ++i)
+    ASSERT_EQ(glm::uvec3(patternTriangle(plan, i)), emitted.triangles[size_t(i)]) << text(factors) << i;
   double area = 0.0;
   std::vector<bool> used(emitted.points.size());
   std::map<std::pair<uint32_t, uint32_t>, int> edges;

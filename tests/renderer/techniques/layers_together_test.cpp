@@ -3,24 +3,11 @@
 // layer whose masks are joined in an image.
 #include <cstring>
 
-#include "renderer/techniques/soft_shadows/bitmask/bitmask_parts.h"
+#include "renderer/techniques/soft_shadows/pixel_counts.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
 namespace {
-
-class BitmaskOfLayers : public SearchTechnique {
- public:
-  BitmaskOfLayers(const BitmaskSettings& settings, bool together)
-      : SearchTechnique(partsOf(settings, together)) {}
-
- private:
-  static SearchParts partsOf(const BitmaskSettings& settings, bool together) {
-    SearchParts parts = bitmaskParts(settings);
-    parts.layersTogether = together;
-    return parts;
-  }
-};
 
 class LayersTogether : public TechniqueTest {
  protected:
@@ -31,35 +18,36 @@ class LayersTogether : public TechniqueTest {
     PixelCounts counted;
     double maskBytes = 0.0;
   };
-  static Result find(const scene::Scene& scene, const Given& given, bool together) {
+  static Result find(const scene::Scene& scene, Given given, const char* passes) {
+    given["maps.passes"] = text(passes);
     const TechniqueInfo& info = TechniqueRegistry::instance().get("soft_shadows/bitmask");
     const ParameterValues values(info.parameters, given);
     info.check(values);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {61, 45});
-    BitmaskOfLayers technique(BitmaskSettings::table().read(values), together);
-    technique.prepare(frame);
+    const auto technique = info.make(values);
+    technique->prepare(frame);
     // Two frames, since what one leaves behind is no concern of the next.
     for (int i = 0; i < 2; ++i) {
       frame.begin();
-      technique.render(frame);
+      technique->render(frame);
       frame.end();
     }
-    Result out{technique.product().read().data, {}};
-    for (const Counter& counter : technique.count(frame))
+    Result out{technique->product().read().data, {}};
+    for (const Counter& counter : technique->count(frame))
       if (counter.name == "mask_bytes") out.maskBytes = counter.value;
-    EXPECT_EQ(std::memcmp(out.product.data(), technique.product().read().data.data(),
+    EXPECT_EQ(std::memcmp(out.product.data(), technique->product().read().data.data(),
                           out.product.size() * sizeof(float)),
               0)
         << "counting changes the product";
-    out.counted = technique.counted();
+    out.counted = dynamic_cast<const CountsPixels&>(*technique).counted();
     return out;
   }
 
   static void expectSameBits(const scene::Scene& scene, Given given, const std::string& what) {
     given.emplace("resolution", int64_t{128});
     given["maps"] = text("peeled");
-    const Result together = find(scene, given, true), apart = find(scene, given, false);
+    const Result together = find(scene, given, "one"), apart = find(scene, given, "each");
     EXPECT_EQ(together.maskBytes, 0.0) << what;
     EXPECT_GT(apart.maskBytes, 0.0) << what;
     ASSERT_EQ(together.product.size(), apart.product.size());

@@ -129,11 +129,14 @@ TEST_F(SharedLoops, BiasesLevelsAndBudgetsHaveTheBitsOfTheSinglePass) {
 TEST_F(SharedLoops, SeveralMapsHaveTheBitsOfTheSinglePass) {
   const scene::Scene scene = makeScene("two_boxes", {{"light_size", 3.0}});
   for (const Given& maps : {Given{{"maps", text("peeled")}, {"maps.layers", int64_t{3}}},
+                            Given{{"maps", text("peeled")}, {"maps.passes", text("one")}},
                             Given{{"maps", text("light_points")}, {"maps.points", int64_t{5}}},
                             Given{{"maps", text("per_object")}}})
     expectSameBits(scene, kBitmask, maps, std::get<std::string>(maps.at("maps")), {1, 8});
   expectSameBits(scene, kColoured, {}, "coloured");
   expectSameBits(scene, kColoured, {{"maps", text("peeled")}}, "coloured, peeled");
+  expectSameBits(scene, kColoured, {{"maps", text("peeled")}, {"maps.passes", text("one")}},
+                 "coloured, peeled, in one pass");
 }
 
 TEST_F(SharedLoops, LightsOfOtherShapesHaveTheBitsOfTheSinglePass) {

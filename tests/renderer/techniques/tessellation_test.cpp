@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstring>
 
 #include "renderer/frame/shaded.h"
+#include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/factors.h"
+#include "renderer/surfaces/surface_errors.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -25,7 +29,8 @@ TEST_F(Tessellation, UniformFactorsMakeTheVerticesAndIndicesOfTheClosedForm) {
                                  {{"factors", std::string("uniform")},
                                   {"factors.segments", int64_t{5}},
                                   {"cull", false},
-                                  {"form", std::string(form)}},
+                                  {"form", std::string(form)},
+                                  {"raster", std::string("hardware")}},
                                  {64, 48}, true);
     EXPECT_EQ(made.counter("tessellated_vertices"), 32 * 36);
     EXPECT_EQ(made.counter("tessellated_triangles"), 32 * 50);
@@ -48,6 +53,118 @@ TEST_F(Tessellation, ShowsWhatTheSceneShowsAsAMesh) {
              {{"factors", std::string("uniform")}, {"factors.segments", int64_t{16}}}, {160, 120});
   // Diagonals may run the other way, and silhouettes may take another pixel.
   EXPECT_LT(meanDifference(mesh, made.product), 2e-3);
+}
+
+// Uniform factors: the tessellator's pattern has the same vertices, and as many triangles.
+TEST_F(Tessellation, HardwareShowsWhatComputeShows) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  for (const int64_t segments : {1, 7, 64}) {
+    const Given given = {
+        {"factors", std::string("uniform")}, {"factors.segments", segments}, {"cull", false}};
+    const Rendered compute = render(teapot, "tessellation/compute", given, {128, 96}, true);
+    const Rendered hardware = render(teapot, "tessellation/hardware", given, {128, 96}, true);
+    // A single quad has one of two diagonals, and the tessellator takes its own.
+    if (segments > 1) {
+      EXPECT_LT(meanDifference(compute.product, hardware.product), 1e-3) << segments;
+    }
+    EXPECT_EQ(compute.counter("tessellated_triangles"), hardware.counter("tessellated_triangles"))
+        << segments;
+  }
+}
+
+TEST_F(Tessellation, FractionalSpacingShowsTheSurfaceAsWell) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  const Rendered fine = render(teapot, "tessellation/uniform_fine", {}, {128, 96});
+  for (const char* spacing : {"equal", "fractional_even", "fractional_odd"}) {
+    const Rendered made =
+        render(teapot, "tessellation/hardware",
+               {{"spacing", std::string(spacing)}, {"factors.tolerance_px", 0.1}}, {128, 96});
+    EXPECT_LT(meanDifference(fine.product, made.product), 2e-3) << spacing;
+  }
+}
+
+TEST_F(Tessellation, TheComputeRasterShowsWhatTheDriversShows) {
+  for (const char* name : {"curved/teapot", "curved/sheet"}) {
+    const scene::Scene scene = makeScene(name);
+    const Rendered driver =
+        render(scene, "tessellation/compute", {{"raster", std::string("hardware")}}, {128, 96}, true);
+    const Rendered compute =
+        render(scene, "tessellation/compute", {{"raster", std::string("compute")}}, {128, 96}, true);
+    EXPECT_LT(meanDifference(driver.product, compute.product), 1e-4) << name;
+    EXPECT_EQ(driver.counter("tessellated_triangles"), compute.counter("tessellated_triangles")) << name;
+    EXPECT_EQ(compute.counter("tessellated_indices"), 3 * compute.counter("tessellated_triangles")) << name;
+  }
+}
+
+TEST_F(Tessellation, TheSurfaceReadBackIsExactAndTheSameTwice) {
+  const scene::Scene scene = makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}});
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {160, 120});
+  const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+  const auto technique = info.make(ParameterValues(info.parameters, {}));
+  technique->prepare(frame);
+  const auto rendered = [&] {
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    return technique->tessellation(frame);
+  };
+  const auto first = rendered(), second = rendered();
+  ASSERT_GT(first->positions.size(), 1000U);
+  ASSERT_EQ(first->positions.size(), second->positions.size());
+  EXPECT_EQ(std::memcmp(first->positions.data(), second->positions.data(), first->positions.size() * 12), 0);
+  EXPECT_EQ(std::memcmp(first->normals.data(), second->normals.data(), first->normals.size() * 12), 0);
+  EXPECT_EQ(first->triangles, second->triangles);
+  double most = 0.0;
+  for (size_t i = 0; i < first->positions.size(); ++i) {
+    const surfaces::Patch& patch = scene.surfaces.patches[first->patches[i]];
+    const glm::dvec3 exact =
+        surfaces::evaluate(scene.surfaces, patch, first->parameters[i], surfaces::Order::Position).p;
+    most = std::max(most, glm::length(first->anchor + glm::dvec3(first->positions[i]) - exact));
+  }
+  EXPECT_LT(most, 1e-6 * gpuScene.diagonal());
+}
+
+// The shader's factors in float are those of factors.h in double, but for patches whose number of segments
+// lies within rounding of a whole one.
+TEST_F(Tessellation, FactorsAreThoseOfTheBoundsInDoublePrecision) {
+  const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {320, 240});
+  const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+  const auto technique = info.make(ParameterValues(info.parameters, {}));
+  technique->prepare(frame);
+  frame.begin();
+  technique->render(frame);
+  frame.end();
+  const auto surface = technique->tessellation(frame);
+  const surfaces::PatchSet& set = scene.surfaces;
+  std::vector<glm::dvec2> segments;
+  for (const surfaces::Patch& patch : set.patches) {
+    double depth = 1e300;
+    for (uint32_t i = 0; i < 16; ++i)
+      depth = std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - surface->view.eye,
+                                       surface->view.forward));
+    const double eps = surfaces::objectTolerance(0.5, depth, frame.tanHalfFov(), 240);
+    segments.push_back(surfaces::segmentsOf(surfaces::derivativeBounds(set, patch, eps), eps,
+                                            surfaces::FactorRule::AbiEzziShirman));
+  }
+  int compared = 0;
+  for (size_t i = 0; i < set.patches.size(); ++i) {
+    if (surface->factors[i][0] == 0) continue;
+    for (size_t side = 0; side < 4; ++side) {
+      const surfaces::Neighbour& beyond = set.neighbours[i][side];
+      double own = side % 2 == 0 ? segments[i].x : segments[i].y;
+      if (beyond.patch >= 0 && surface->factors[size_t(beyond.patch)][0] > 0)
+        own = std::max(
+            own, beyond.side % 2 == 0 ? segments[size_t(beyond.patch)].x : segments[size_t(beyond.patch)].y);
+      if (std::abs(own - std::round(own)) < 1e-4) continue;
+      EXPECT_EQ(surface->factors[i][side], surfaces::wholeFactor(own, 64))
+          << "patch " << i << " side " << side;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 500);
 }
 
 TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {

@@ -88,7 +88,7 @@ class LodSwitch : public Technique {
 
 const RegisteredTechnique<LodSwitch> kLodSwitchRegistered{
     {.name = "popping/lod_switch",
-     .version = 2,
+     .version = 3,
      .summary = "Popping predictor on one object's change of level: difference map, regions, rating",
      .source = "Schwarz 2009, chapter 10 (SP-39 to SP-52)",
      .product = ProductKind::JndMap,

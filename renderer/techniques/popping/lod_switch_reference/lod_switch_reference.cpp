@@ -56,7 +56,7 @@ class LodSwitchReference : public Technique {
 
 const RegisteredTechnique<LodSwitchReference> kLodSwitchReferenceRegistered{
     {.name = "popping/lod_switch_reference",
-     .version = 2,
+     .version = 3,
      .summary = "Popping predictor in double precision on the frames of one object's change of level",
      .source = "Schwarz 2009, chapter 10 (SP-51)",
      .product = ProductKind::JndMap,

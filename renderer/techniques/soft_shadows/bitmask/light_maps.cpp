@@ -77,7 +77,12 @@ const SettingsTable<PeeledMaps>& PeeledMaps::table() {
           .formerly({"peel_bias"}),
       Binding(&PeeledMaps::laterExtent, "later_extent", Range{0.05, 1.0}, "",
               "Extent of the frustum of all layers but the first, around the light's axis", kOpenMaps)
-          .formerly({"later_extent"})};
+          .formerly({"later_extent"}),
+      {&PeeledMaps::passes, "passes",
+       "Passes over pixels: one for each layer, with masks stored in between, or one for all; the visibility "
+       "is "
+       "the same",
+       "bench"}};
   return kTable;
 }
 

@@ -13,10 +13,19 @@ namespace limen::techniques {
 struct CentreMap {
   static constexpr const char *kKind = "centre", *kSummary = "only the map from the light's centre";
 };
+/// Passes over pixels that read the layers.
+enum class LayerPasses {
+  Each,  ///< one for each layer; masks are stored in between
+  One    ///< one for all; masks stay in registers
+};
+constexpr EnumNames<LayerPasses, 2> enumNames(LayerPasses) {
+  return {{{{LayerPasses::Each, "each"}, {LayerPasses::One, "one"}}}};
+}
 struct PeeledMaps {
   static constexpr const char *kKind = "peeled", *kSummary = "that map and the layers behind it";
   int layers = 2;
   double bias = 1e-5, laterExtent = 1.0;
+  LayerPasses passes = LayerPasses::Each;
   static const SettingsTable<PeeledMaps>& table();
 };
 /// What is done about gaps that a map cannot see into: parts of the light between two surfaces one behind the

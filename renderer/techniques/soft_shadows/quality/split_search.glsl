@@ -167,8 +167,8 @@ void main() {
     firstRow = int(lane);
     rowStep = LANES;
     if (lane == 0u) hideBehindPlane(loadReceiver(pixel));
-    if (!gatherLayers(pixel)) atomicOr(sharedCutShort[slot], 1u);
   }
+  if (!gatherLayers(pixel, listed)) atomicOr(sharedCutShort[slot], 1u);
   joinLanes();
   if (listed) visibility = gatheredVisibility();
 #else
@@ -240,7 +240,7 @@ void main() {
 #if MAP_LAYERS > 1
   clearGathered();
   hideBehindPlane(receiver);
-  const bool whole = gatherLayers(pixel);
+  const bool whole = gatherLayers(pixel, true);
 #ifdef KEEP_MASKS
   if (whole) keepGathered(pixel);
 #endif

@@ -12,10 +12,12 @@
 #include <epoxy/gl.h>
 
 #include "renderer/compute/prefix_sum.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 namespace limen::techniques {
@@ -30,6 +32,7 @@ struct ComputeTessellationSettings {
   FactorSettings tessellation;
   SlotForm form = SlotForm::VertexParallel;
   compute::ScanForm scan = compute::ScanForm::Auto;
+  frame::Raster raster = frame::Raster::Auto;
   int64_t capacity = 1 << 20;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
@@ -39,17 +42,19 @@ struct ComputeTessellationSettings {
         {&S::form, "form", "What an invocation or group makes: one vertex, or one patch",
          "Schwarz 2009, section 7.6.1"},
         {&S::scan, "scan", "How offsets are summed"},
+        {&S::raster, "raster",
+         "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
          {4, 1 << 26},
          "vertices",
-         "Vertices that the buffers hold; indices: four times as many"},
+         "Vertices that the buffers hold; indices: six times as many"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
 
-constexpr int64_t kIndicesPerVertex = 4;
+constexpr int64_t kIndicesPerVertex = 6;
 
 class ComputeTessellation : public Technique {
  public:
@@ -62,11 +67,14 @@ class ComputeTessellation : public Technique {
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
-    factors_.emplace(frame, *patches_, settings_.tessellation);
+    lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
+    factors_.emplace(frame, *patches_, settings_.tessellation, lists_);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
-    picture_.emplace(frame, settings_.shading, "tessellation");
+    picture_.emplace(frame, settings_.shading, "tessellation",
+                     lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     gl::ShaderDefines defines = patches_->defines();
     if (settings_.form == SlotForm::PatchParallel) defines["PATCH_PARALLEL"] = "1";
+    if (lists_) defines["LISTS"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
     totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
     verticesProgram_ = &programs.compute(folder + "vertices.comp.glsl", defines);
@@ -75,6 +83,7 @@ class ComputeTessellation : public Technique {
         &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
+    count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
     vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
     indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
     makeVertexArray();
@@ -91,10 +100,12 @@ class ComputeTessellation : public Technique {
       scan_->run(factors_->counts(), *offsets_, patches_->count());
       offsets_->bindStorage(kSlotOffsetsBuffer);
       totals_->bindStorage(kTotalsBuffer);
+      count_->bindStorage(kTriangleCountBuffer);
       totalsProgram_->use();
       totalsProgram_->set("patchCount", patches_->count());
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
       totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
@@ -104,6 +115,10 @@ class ComputeTessellation : public Technique {
     indices_->bindStorage(kIndicesBuffer);
     fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
     fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    if (lists_) {
+      picture_->renderListed(frame, {*vertices_, *indices_, *count_});
+      return;
+    }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
     picture_->render(frame, [&] {
       drawProgram_->use();
@@ -120,11 +135,36 @@ class ComputeTessellation : public Technique {
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
+    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    auto out = std::make_shared<surfaces::TessellatedSurface>();
+    out->anchor = frame.gpuScene().anchor();
+    out->view = viewOf(frame);
+    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+      out->positions.push_back(vertex.position);
+      out->normals.push_back(vertex.normal);
+    }
+    out->triangles = readTriangles(totals);
+    const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+      surfaces::Factors& own = out->factors.emplace_back();
+      if (i >= totals.patches || factors[i] == 0) continue;
+      for (uint32_t side = 0; side < 4; ++side) own[side] = static_cast<int>(factors[i] >> 8 * side & 255U);
+      const surfaces::PatternPlan plan =
+          surfaces::patternOf(patches[i].domain, own, settings_.tessellation.cornerFix);
+      for (int slot = 0; slot < plan.vertices; ++slot) {
+        out->parameters.push_back(surfaces::domainPointOf(plan, slot));
+        out->patches.push_back(i);
+      }
+    }
+    return out;
+  }
+
   std::vector<Counter> count(frame::Frame&) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
     const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
-    const std::vector<uint32_t> indices = indices_->read<uint32_t>(0, totals.indices);
     double culled = 0.0, rungs[kRungs] = {};
     for (const uint32_t packed : factors) culled += packed == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
@@ -132,7 +172,7 @@ class ComputeTessellation : public Technique {
         {"patches_culled", culled},
         {"patches_left_out", double(totals.overflow)},
         {"tessellated_vertices", double(totals.vertices)},
-        {"tessellated_triangles", double(surfaces::stripTriangles(indices).size())},
+        {"tessellated_triangles", double(readTriangles(totals).size())},
         {"tessellated_indices", double(totals.indices)},
         {"tessellated_mib",
          (double(totals.vertices) * sizeof(TessellatedVertex) + 4.0 * double(totals.indices)) / 1048576.0},
@@ -156,6 +196,11 @@ class ComputeTessellation : public Technique {
   }
 
  private:
+  std::vector<glm::uvec3> readTriangles(const TessellationTotals& totals) const {
+    if (lists_) return indices_->read<glm::uvec3>(0, totals.indices / 3);
+    return surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
+  }
+
   void makeVertexArray() {
     glCreateVertexArrays(1, &vertexArray_);
     const auto attribute = [&](GLuint location, bool whole, int components, size_t offset) {
@@ -198,9 +243,61 @@ class ComputeTessellation : public Technique {
   std::optional<SurfacePicture> picture_;
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
                     *drawProgram_ = nullptr;
-  std::optional<gl::Buffer> offsets_, totals_, vertices_, indices_;
+  std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
+  bool lists_ = false;  // indices of single triangles, for ComputeRaster; otherwise strips
   uint32_t vertexArray_ = 0;
 };
+
+struct UniformFineSettings {
+  int segments = 64;
+  frame::ShadedSetting shading;
+  static const SettingsTable<UniformFineSettings>& table() {
+    using S = UniformFineSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::segments, "segments", {1, 64}, "segments", "Segments of every side"},
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+/// Reference: so fine a tessellation that its deviation is a small part of a pixel.
+class UniformFine : public Technique {
+ public:
+  using Settings = UniformFineSettings;
+  explicit UniformFine(const Settings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    ComputeTessellationSettings all;
+    all.tessellation.factors = BySegments{settings_.segments};
+    const int64_t side = settings_.segments + 1,
+                  patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
+    all.capacity = std::max<int64_t>(patches * side * side, 4);
+    all.shading = settings_.shading;
+    fine_.emplace(all);
+    fine_->prepare(frame);
+  }
+  void render(frame::Frame& frame) override { fine_->render(frame); }
+  const gl::Texture& product() const override { return fine_->product(); }
+  std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
+    return fine_->tessellation(frame);
+  }
+  std::vector<Counter> count(frame::Frame& frame) override { return fine_->count(frame); }
+
+ private:
+  Settings settings_;
+  std::optional<ComputeTessellation> fine_;
+};
+
+const RegisteredTechnique<UniformFine> kUniformFineRegistered{
+    {.name = "tessellation/uniform_fine",
+     .version = 1,
+     .summary = "Curved surfaces with the same fine tessellation of all patches",
+     .source = "bench",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .reference = true,
+     .tessellates = true,
+     .counters = ComputeTessellation::quantities()}};
 
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
     {.name = "tessellation/compute",
@@ -209,6 +306,7 @@ const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
      .source = "Schwarz 2009, section 7.6 (SC-69)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
+     .tessellates = true,
      .counters = ComputeTessellation::quantities()}};
 
 }  // namespace

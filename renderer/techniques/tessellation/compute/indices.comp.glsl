@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 5: indices of triangle strips. A group for each patch (PATCH_PARALLEL) or an invocation for each index.
-// See compute.cpp.
+// Phase 5: indices of triangle strips, or of single triangles (LISTS: a slot is then a triangle). A group for each patch
+// (PATCH_PARALLEL) or an invocation for each slot. See compute.cpp.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
 layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
 
-uint indexAt(PatternPlan plan, int slot, uint firstVertex) {
-  const int vertex = patternIndex(plan, slot);
-  return vertex == kPatternRestart ? 0xffffffffu : firstVertex + uint(vertex);
+#ifdef LISTS
+const uint kIndicesPerSlot = 3u;
+#else
+const uint kIndicesPerSlot = 1u;
+#endif
+
+// `first`: first vertex and first slot of the patch.
+void writeSlot(PatternPlan plan, uint slot, uvec2 first) {
+#ifdef LISTS
+  const uvec3 corners = uvec3(patternTriangle(plan, int(slot))) + first.x;
+  const uint at = 3u * (first.y + slot);
+  indices[at] = corners.x;
+  indices[at + 1u] = corners.y;
+  indices[at + 2u] = corners.z;
+#else
+  const int vertex = patternIndex(plan, int(slot));
+  indices[first.y + slot] = vertex == kPatternRestart ? 0xffffffffu : first.x + uint(vertex);
+#endif
 }
 
 void main() {
@@ -19,13 +34,14 @@ void main() {
   if (count == 0u) return;
   const PatternPlan plan = planOf(group, shapeOf(patches[group]));
   for (uint slot = gl_LocalInvocationIndex; slot < count; slot += uint(kTessellationGroup))
-    indices[first.y + slot] = indexAt(plan, int(slot), first.x);
+    writeSlot(plan, slot, first);
 #else
+  const uint slots = totals.indices / kIndicesPerSlot;
   const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + gl_LocalInvocationIndex;
-  if (firstSlot >= totals.indices) return;
-  const uint number = patchOfSlot(firstSlot, totals.indices, 1);
-  if (slot >= totals.indices) return;
+  if (firstSlot >= slots) return;
+  const uint number = patchOfSlot(firstSlot, slots, 1);
+  if (slot >= slots) return;
   const uvec2 first = slotOffsets[number];
-  indices[slot] = indexAt(planOf(number, shapeOf(patches[number])), int(slot - first.y), first.x);
+  writeSlot(planOf(number, shapeOf(patches[number])), slot - first.y, first);
 #endif
 }

@@ -13,7 +13,7 @@ void main() {
   const TessellatedPatch patch_ = patches[group];
   const PatternPlan plan = planOf(group, shapeOf(patch_));
   for (uint slot = gl_LocalInvocationIndex; slot < count; slot += uint(kTessellationGroup))
-    vertices[first + slot] = surfaceVertex(patch_, patternSample(plan, int(slot)));
+    vertices[first + slot] = surfaceVertex(patch_, domainPoint(shapeOf(patch_), patternSample(plan, int(slot))));
 #else
   const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + gl_LocalInvocationIndex;
   if (firstSlot >= totals.vertices) return;
@@ -21,6 +21,7 @@ void main() {
   if (slot >= totals.vertices) return;
   const TessellatedPatch patch_ = patches[number];
   const PatternPlan plan = planOf(number, shapeOf(patch_));
-  vertices[slot] = surfaceVertex(patch_, patternSample(plan, int(slot - slotOffsets[number].x)));
+  const ivec4 place = patternSample(plan, int(slot - slotOffsets[number].x));
+  vertices[slot] = surfaceVertex(patch_, domainPoint(shapeOf(patch_), place));
 #endif
 }
