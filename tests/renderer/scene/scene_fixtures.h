@@ -68,13 +68,15 @@ inline const std::string& roundMeshFile() {
 
 /// What the scene cannot do without, and a coarser form of one that is made to be large.
 inline Given needed(const std::string& scene) {
-  if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
+  if (scene == "lod/mesh" || scene == "curved/pn_mesh") return {{"file", roundMeshFile()}};
   if (scene == "boulders") return {{"tessellation", int64_t{4}}};
+  if (scene == "curved/herd") return {{"animals", int64_t{1}}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 
 inline bool installed(const std::string& scene) {
-  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object") ||
+  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object" &&
+          scene != "curved/pn_model") ||
          std::filesystem::exists("/usr/share/glmark2/models");
 }
 
