@@ -5,7 +5,7 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
-#include "renderer/scene/random.h"
+#include "renderer/scene/shapes.h"
 #include "tests/renderer/gl/gl_fixture.h"
 #include "tests/renderer/surfaces/bezier_samples_bindings.h"
 
