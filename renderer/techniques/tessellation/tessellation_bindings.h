@@ -79,6 +79,14 @@ struct TessellationTotals {
 static_assert(sizeof(TessellationTotals) == 64 && offsetof(TessellationTotals, indices) == 32);
 #endif
 
+// DrawElementsIndirectCommand.
+struct PatternCommand {  // std430
+  uint indices, instances, firstIndex, firstVertex, firstInstance;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatternCommand) == 20);
+#endif
+
 const uint kPatchesBuffer = 0u;
 const uint kPatchPointsBuffer = 1u;
 const uint kPatchNormalsBuffer = 2u;
@@ -91,6 +99,12 @@ const uint kTotalsBuffer = 6u;
 const uint kVerticesBuffer = 7u;
 const uint kTriangleCountBuffer = 7u;
 const uint kIndicesBuffer = 3u;
+
+// Refinement patterns.
+const uint kPatternCountsBuffer = 5u;
+const uint kPatternOffsetsBuffer = 6u;
+const uint kPatternInstancesBuffer = 7u;
+const uint kPatternCommandsBuffer = 7u;
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;

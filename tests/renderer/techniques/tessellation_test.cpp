@@ -191,6 +191,50 @@ TEST_F(Tessellation, BothFormsAndBothScansMakeTheSamePicture) {
     }
 }
 
+/// The same triangles as in compute, by stored patterns, whoever builds the batches.
+TEST_F(Tessellation, PatternsShowWhatComputeShows) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"}) {
+    const scene::Scene scene = makeScene(name);
+    for (const char* patterns : {"integer", "dyadic"}) {
+      const bool dyadic = std::string(patterns) == "dyadic";
+      const Rendered compute = render(scene, "tessellation/compute",
+                                      {{"raster", std::string("hardware")},
+                                       {"spacing", std::string(patterns)},
+                                       {"factors.most", int64_t{16}}},
+                                      {96, 72}, true);
+      for (const char* draw : {"immediate", "instanced", "multi_draw"}) {
+        if (!dyadic && std::string(draw) == "multi_draw") continue;
+        const Rendered made = render(
+            scene, "tessellation/patterns",
+            {{"patterns", std::string(patterns)}, {"draw", std::string(draw)}, {"factors.most", int64_t{16}}},
+            {96, 72}, true);
+        EXPECT_LT(meanDifference(compute.product, made.product), 1e-6)
+            << name << " " << patterns << " " << draw;
+        EXPECT_EQ(compute.counter("tessellated_triangles"), made.counter("tessellated_triangles"))
+            << name << " " << patterns << " " << draw;
+        EXPECT_EQ(made.counter("patches_left_out"), 0);
+      }
+    }
+  }
+}
+
+/// Uniform patterns with samples on sides moved: more triangles, some without area, and no gaps.
+TEST_F(Tessellation, AdaptedUniformPatternsShowTheSurface) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  const Rendered fine = render(teapot, "tessellation/uniform_fine", {}, {128, 96});
+  const Rendered exact =
+      render(teapot, "tessellation/patterns", {{"patterns", std::string("integer")}}, {128, 96}, true);
+  for (const char* patterns : {"adapted", "adapted_integer"})
+    for (const char* draw : {"immediate", "instanced", "multi_draw"}) {
+      if (std::string(patterns) == "adapted_integer" && std::string(draw) == "multi_draw") continue;
+      const Rendered made =
+          render(teapot, "tessellation/patterns",
+                 {{"patterns", std::string(patterns)}, {"draw", std::string(draw)}}, {128, 96}, true);
+      EXPECT_LT(meanDifference(fine.product, made.product), 3e-3) << patterns << " " << draw;
+      EXPECT_GT(made.counter("tessellated_triangles"), exact.counter("tessellated_triangles")) << patterns;
+    }
+}
+
 /// The surface that a technique makes in one frame.
 class TessellatedSurfaces : public Tessellation {
  protected:
@@ -241,7 +285,8 @@ TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
     for (const std::string form : {"patch_parallel", "four_threads"})
       for (const std::string evaluation : {"direct", "forward_differences"})
         for (const std::string sides : {"evaluated", "copied"}) {
-          const auto surface = made(scene, text({{"form", form}, {"evaluation", evaluation}, {"sides", sides}}));
+          const auto surface =
+              made(scene, text({{"form", form}, {"evaluation", evaluation}, {"sides", sides}}));
           const std::string what = form + " " + evaluation + " " + sides;
           ASSERT_GT(surface->positions.size(), 1000U) << what;
           EXPECT_LT(largestError(scene, *surface), 1e-5) << what;

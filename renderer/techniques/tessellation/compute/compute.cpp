@@ -38,7 +38,7 @@ struct EvaluateDirectly {
 struct EvaluateByDifferences {
   static constexpr const char *kKind = "forward_differences",
                               *kSummary =
-                                  "rows of samples by forward differences, of patches of degree 3 along u";
+                                  "rows of samples by forward differences, of bicubic patches";
   int restart = 64;
   static const SettingsTable<EvaluateByDifferences>& table() {
     static const SettingsTable<EvaluateByDifferences> kTable = {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A row of samples of a patch of degree 3 along u, by forward differences. DIFFERENCE: vec4, or float of the component LANE.
+// A row of samples of a bicubic patch by forward differences. DIFFERENCE: BicubicPoint, or float of the component LANE.
 #include "renderer/surfaces/forward_differences.glsl"
 
 #ifdef LANE
-DIFFERENCE controlPoint(int at) { return patchPoints[at][LANE]; }
+DIFFERENCE controlPoint(int index) { return bezierPoint(index)[LANE]; }
 #else
-DIFFERENCE controlPoint(int at) { return patchPoints[at]; }
+DIFFERENCE controlPoint(int index) { return bicubicPoint(index); }
 #endif
 
 // The curve at a v, and its derivative along v, in powers of u.
@@ -17,19 +17,14 @@ struct DifferenceRuns {
   QuadraticRun along;
 };
 
-DifferenceRow differenceRow(TessellatedPatch patch_, float v, float rest) {
-  const int n = degreeV(shapeOf(patch_)), first = int(patch_.firstPoint);
-  float basis[kBasis], slope[kBasis];
-  bernstein(n, v, rest, basis, slope);
+DifferenceRow differenceRow(float v, float rest) {
+  const vec4 basis = cubicBasis(v, rest);
+  const vec3 slope = 3.0 * quadraticBasis(v, rest);
   DIFFERENCE points[4], slopes[4];
   for (int i = 0; i < 4; ++i) {
-    points[i] = DIFFERENCE(0.0);
-    slopes[i] = DIFFERENCE(0.0);
-    for (int j = 0; j <= n; ++j) {
-      const DIFFERENCE point = controlPoint(first + i + 4 * j);
-      points[i] += point * basis[j];
-      slopes[i] += point * slope[j];
-    }
+    const DIFFERENCE a = controlPoint(i), b = controlPoint(i + 4), c = controlPoint(i + 8), d = controlPoint(i + 12);
+    points[i] = a * basis.x + b * basis.y + c * basis.z + d * basis.w;
+    slopes[i] = (b - a) * slope.x + (c - b) * slope.y + (d - c) * slope.z;
   }
   DifferenceRow row;
   row.value = powersOf(points[0], points[1], points[2], points[3]);

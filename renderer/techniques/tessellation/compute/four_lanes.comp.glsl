@@ -14,26 +14,28 @@ shared int mostRounds;
 #define LANE (gl_LocalInvocationIndex & 3u)
 #include "renderer/techniques/tessellation/compute/difference_rows.glsl"
 
-// In the order of rowAt(), so that sides are bitwise the same.
-float cubic(float a, float b, float c, float d, float basis[kBasis]) {
-  precise const float outer = a * basis[0] + d * basis[3], inner = b * basis[1] + c * basis[2], sum = outer + inner;
+// In the order of cubicSum() and quadraticSum(), so that sides are bitwise the same.
+float cubic(float a, float b, float c, float d, vec4 basis) {
+  precise const float outer = a * basis.x + d * basis.w, inner = b * basis.y + c * basis.z, sum = outer + inner;
+  return sum;
+}
+float quadratic(float a, float b, float c, vec3 basis) {
+  precise const float outer = a * basis.x + c * basis.z, sum = outer + b * basis.y;
   return sum;
 }
 
 // Of one component: value, derivatives along u and v.
-vec3 componentAt(int first, DomainPoint point) {
-  float bu[kBasis], du[kBasis], bv[kBasis], dv[kBasis];
-  bernstein(3, point.at.x, point.rest.x, bu, du);
-  bernstein(3, point.at.y, point.rest.y, bv, dv);
-  float rows[4], rises[4];
+vec3 componentAt(vec4 at) {
+  const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
+  const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
+  float p[4], u[4];
   for (int j = 0; j < 4; ++j) {
-    const float a = controlPoint(first + 4 * j), b = controlPoint(first + 4 * j + 1), c = controlPoint(first + 4 * j + 2),
-                d = controlPoint(first + 4 * j + 3);
-    rows[j] = cubic(a, b, c, d, bu);
-    rises[j] = cubic(a, b, c, d, du);
+    const float a = controlPoint(4 * j), b = controlPoint(4 * j + 1), c = controlPoint(4 * j + 2), d = controlPoint(4 * j + 3);
+    p[j] = cubic(a, b, c, d, bu);
+    u[j] = 3.0 * quadratic(b - a, c - b, d - c, du);
   }
-  return vec3(cubic(rows[0], rows[1], rows[2], rows[3], bv), cubic(rises[0], rises[1], rises[2], rises[3], bv),
-              cubic(rows[0], rows[1], rows[2], rows[3], dv));
+  return vec3(cubic(p[0], p[1], p[2], p[3], bv), cubic(u[0], u[1], u[2], u[3], bv),
+              3.0 * quadratic(p[1] - p[0], p[2] - p[1], p[3] - p[2], dv));
 }
 
 void main() {
@@ -53,7 +55,8 @@ void main() {
   barrier();
   const TessellatedPatch patch_ = patches[there ? number : 0u];
   const uint shape = shapeOf(patch_);
-  const bool bicubic = isRectangle(shape) && degreeU(shape) == 3 && degreeV(shape) == 3;
+  const bool bicubic = isBicubic(shape);
+  patchFirst = int(patch_.firstPoint);
   PatternPlan plan;
   if (count > 0) plan = planOf(number, shape);
 #ifdef RESTART
@@ -71,7 +74,7 @@ void main() {
       const int width = plan.cols + 1, at = slot % width;
       if (slot < plan.coreVertices) {
         if (at == 0)
-          row = differenceRow(patch_, gridFraction(s.z, s.w), gridFraction(s.w - s.z, s.w));
+          row = differenceRow(gridFraction(s.z, s.w), gridFraction(s.w - s.z, s.w));
         if (at % RESTART == 0) {
           runs = differenceRuns(row, s.x, plan.mu);
         } else {
@@ -81,10 +84,10 @@ void main() {
       if (slot < plan.coreVertices && !isDirect(s)) {
         jet = vec3(runs.value.value, runs.along.value, runs.across.value);
       } else {
-        jet = componentAt(int(patch_.firstPoint), domainPoint(shape, s));
+        jet = componentAt(domainPoint(shape, s));
       }
 #else
-      jet = componentAt(int(patch_.firstPoint), domainPoint(shape, s));
+      jet = componentAt(domainPoint(shape, s));
 #endif
       for (int part = 0; part < 3; ++part) jets[(place * 4 + k) * 12 + part * 4 + lane] = jet[part];
     }
@@ -92,7 +95,7 @@ void main() {
     const int mine = 4 * round_ + lane;
     if (mine < count) {
       if (bicubic) {
-        SurfaceJet jet;
+        BezierJet jet;
         const int from = (place * 4 + lane) * 12;
         jet.p = vec4(jets[from], jets[from + 1], jets[from + 2], jets[from + 3]);
         jet.u = vec4(jets[from + 4], jets[from + 5], jets[from + 6], jets[from + 7]);
