@@ -89,6 +89,24 @@ LIMEN_SPACING int sideOfSample(int rectangle, ivec4 s) {
   return s.y == 0 ? 2 : -1;
 }
 
+// A uniform pattern's sample, on a side moved to the nearest of that side's own (Schwarz 2009, section 7.5.4;
+// SC-65, SC-66): the nearest end on either half, so that it does not matter which way the side runs.
+// `segments`: of the sides, none more than the pattern's.
+LIMEN_SPACING ivec4 adaptedSample(int rectangle, ivec4 s, ivec4 segments) {
+  const int side = sideOfSample(rectangle, s);
+  if (side < 0) return s;
+  int q, n = s.w;
+  if (rectangle == 1) {
+    n = side % 2 == 0 ? s.y : s.w;
+    q = side == 0 ? s.x : (side == 1 ? s.z : (side == 2 ? n - s.x : n - s.z));
+  } else {
+    q = side == 0 ? s.y : (side == 1 ? s.z : s.x);
+  }
+  const int m = segments[side];
+  const int nearest = 2 * q < n ? (2 * m * q + n - 1) / (2 * n) : (2 * m * q + n) / (2 * n);
+  return patternSideSample(rectangle, side, nearest, m);
+}
+
 // Of the four sides' factors, those that a rectangle's sample is placed by along u and v: the side's own on a
 // side, the smaller of the two inside.
 LIMEN_SPACING int unitsAlong(ivec4 units, int side, int direction) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
+
+#include "renderer/surfaces/patterns.h"
 
 namespace limen::surfaces {
 namespace {
@@ -44,12 +47,14 @@ TEST(Spacing, MoretonsSegmentsAreOneOverTheFactorButInTheMiddle) {
 }
 
 TEST(Spacing, WholeFactorsOfTheRightParityDivideEvenly) {
-  for (const int n : {2, 4, 6, 16, 64}) expectLengths(std::vector<double>(size_t(n), 1.0 / n), lengths(kSpacingFractionalEven, n));
-  for (const int n : {1, 3, 7, 63}) expectLengths(std::vector<double>(size_t(n), 1.0 / n), lengths(kSpacingFractionalOdd, n));
+  for (const int n : {2, 4, 6, 16, 64})
+    expectLengths(std::vector<double>(size_t(n), 1.0 / n), lengths(kSpacingFractionalEven, n));
+  for (const int n : {1, 3, 7, 63})
+    expectLengths(std::vector<double>(size_t(n), 1.0 / n), lengths(kSpacingFractionalOdd, n));
 }
 
-/// From 1 to 64: places rise from 0 to 1, mirrored places are what is left to 1, and no segment is longer than
-/// that of the next smaller allowed number.
+/// From 1 to 64: places rise from 0 to 1, mirrored places are what is left to 1, and no segment is longer
+/// than that of the next smaller allowed number.
 TEST(Spacing, PlacesRiseAndAreSymmetric) {
   for (const int spacing : kAll)
     for (int units = kSegmentUnit; units <= 64 * kSegmentUnit; units += 7) {
@@ -74,7 +79,8 @@ TEST(Spacing, FractionalPlacesAreContinuous) {
       for (int i = 0; i <= n; ++i) {
         double nearest = 1.0;
         for (int j = 0; j <= m; ++j)
-          nearest = std::min(nearest, std::abs(spacedPlace(spacing, before, i, n) - spacedPlace(spacing, after, j, m)));
+          nearest = std::min(
+              nearest, std::abs(spacedPlace(spacing, before, i, n) - spacedPlace(spacing, after, j, m)));
         EXPECT_LT(nearest, 1e-3) << spacing << " " << whole << " " << i;
       }
     }
@@ -92,6 +98,43 @@ TEST(Spacing, MorphedLevelsKeepTheTolerance) {
   }
   EXPECT_EQ(morphShare(8 * kSegmentUnit, 8), 1.0);
   EXPECT_LT(morphShare(4 * kSegmentUnit + 1, 8), 2e-3);
+}
+
+/// Uniform patterns whose sides are moved: every sample of a side is used, and the triangles cover the domain
+/// once.
+TEST(Spacing, AdaptedPatternsCoverTheDomainWithTheSidesSamples) {
+  const auto at = [](int rectangle, ivec4 s) {
+    return rectangle == 1 ? glm::dvec2(double(s.x) / s.y, double(s.z) / s.w)
+                          : glm::dvec2(s.x, s.y) / double(s.w);
+  };
+  for (const Domain domain : {Domain::Rectangle, Domain::Triangle})
+    for (int n : {1, 2, 3, 5, 8, 13, 16})
+      for (int code = 0; code < n * n; ++code) {
+        const ivec4 sides(n, code % n + 1, code / n + 1, (code * 7) % n + 1);
+        const int rectangle = domain == Domain::Rectangle ? 1 : 0;
+        const PatternPlan plan = patternOf(domain, {n, n, n, n});
+        std::vector<glm::dvec2> points;
+        std::array<std::set<int>, 4> used;
+        for (int slot = 0; slot < plan.vertices; ++slot) {
+          const ivec4 s = adaptedSample(rectangle, patternSample(plan, slot), sides);
+          points.push_back(at(rectangle, s));
+          for (int side = 0; side < sidesOf(domain); ++side)
+            for (int q = 0; q <= sides[side]; ++q)
+              if (glm::length(at(rectangle, patternSideSample(rectangle, side, q, sides[side])) -
+                              points.back()) < 1e-12)
+                used[size_t(side)].insert(q);
+        }
+        for (int side = 0; side < sidesOf(domain); ++side)
+          EXPECT_EQ(used[size_t(side)].size(), size_t(sides[side]) + 1) << n << " " << code << " " << side;
+        double area = 0.0;
+        for (const glm::uvec3& t : stripTriangles(patternIndices(plan))) {
+          const glm::dvec2 a = points[t.x], b = points[t.y], c = points[t.z];
+          const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+          EXPECT_GT(twice, -1e-12) << n << " " << code;
+          area += 0.5 * twice;
+        }
+        EXPECT_NEAR(area, rectangle == 1 ? 1.0 : 0.5, 1e-9);
+      }
 }
 
 }  // namespace
