@@ -104,7 +104,7 @@ void main() {
     uu *= float(m * (m - 1));
     vv *= float(n * (n - 1));
     uv *= float(m * n);
-    const vec2 segments = segmentsFor(uu, uv, vv, 8.0 * eps * weight, RULE);
+    const vec2 segments = segmentsWithin(uu, uv, vv, 8.0 * eps * weight, RULE, float(mostSegments));
     const int mu = whole(segments.x), mv = whole(segments.y);
     ownFactors[number] = packedFactors(ivec4(mu, mv, mu, mv));
     return;
