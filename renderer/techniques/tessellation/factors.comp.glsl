@@ -108,6 +108,13 @@ vec3 triangleBounds(int first, int n) {
                 edge1 = max(tangentDistance(b[7], b[6], b[9]), tangentDistance(b[8], b[6], b[9])),
                 edge2 = max(tangentDistance(b[2], b[0], b[9]), tangentDistance(b[5], b[0], b[9]));
     return vec3(max(edge0, max(edge1, edge2)));
+    uu *= float(m * (m - 1));
+    vv *= float(n * (n - 1));
+    uv *= float(m * n);
+    const vec2 segments = segmentsWithin(uu, uv, vv, 8.0 * eps * weight, RULE, float(mostSegments));
+    const int mu = whole(segments.x), mv = whole(segments.y);
+    ownFactors[number] = packedFactors(ivec4(mu, mv, mu, mv));
+    return;
   }
 #endif
   float own0 = 0.0, own1 = 0.0, own2 = 0.0, d13 = 0.0, d21 = 0.0, d32 = 0.0;
