@@ -12,11 +12,13 @@ const float kBezierBinomials[55] = float[55](LIMEN_BINOMIALS);
 
 // A point of the domain with what is left to 1 (domain_point.h): (u, v, 1 - u, 1 - v) of a rectangle,
 // (u, v, w, unused) of a triangle.
+// Division may be off by 2.5 units in the last place, and m / m must be 1: a boundary's points are its own alone.
+float gridFraction(int i, int m) { return i == m ? 1.0 : float(i) / float(m); }
 vec4 rectangleGridPoint(int i, int m, int j, int n) {
-  return vec4(float(i) / float(m), float(j) / float(n), float(m - i) / float(m), float(n - j) / float(n));
+  return vec4(gridFraction(i, m), gridFraction(j, n), gridFraction(m - i, m), gridFraction(n - j, n));
 }
 vec4 triangleGridPoint(int i, int j, int m) {
-  return vec4(float(i) / float(m), float(j) / float(m), float(m - i - j) / float(m), 0.0);
+  return vec4(gridFraction(i, m), gridFraction(j, m), gridFraction(m - i - j, m), 0.0);
 }
 
 // Value and derivatives with respect to u and v; of a triangle, w follows them.

@@ -59,6 +59,17 @@ TEST(Descriptor, NeedsNoReferenceForMetricsThatEvaluateOneImage) {
   EXPECT_EQ(descriptor.images.size(), 1U);
 }
 
+TEST(Descriptor, RefusesMetricsOfTessellationsForTechniquesThatMakeNone) {
+  const std::string text =
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\nmetrics: "
+      "[crack_count]\n";
+  Catalogue catalogue = fakeCatalogue();
+  catalogue.metrics["crack_count"].needsTessellation = true;
+  EXPECT_THROW(parseDescriptor(text, "d.yaml", catalogue, {}), Error);
+  catalogue.techniques["soft/pcss"].tessellates = true;
+  EXPECT_NO_THROW(parseDescriptor(text, "d.yaml", catalogue, {}));
+}
+
 TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
   EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
                   "report: {x: fetches_per_px, y: gpu_ms}\n")

@@ -54,12 +54,12 @@ Scene buildSpheres(const SpheresSettings& settings) {
                                                    glm::dvec3(radius))));
       }
   Scene scene;
-  addGround(scene, 18.0);
+  addGround(scene, 24.0);
   addSurface(scene, "spheres", std::move(all), settings.tessellation, {0.6F, 0.65F, 0.72F});
   const double height = kLowest + 10 * kCell;
   frameStanding(scene, height, 10 * kCell);
   const glm::dvec3 middle(0.0, 0.5 * height, 0.0), corner(0.5, 0.6 * height, 9.5 * kCell);
-  setStillCamera(scene, settings.view == SpheresView::Overview ? orbitCamera(middle, 9.0, 30.0, 25.0)
+  setStillCamera(scene, settings.view == SpheresView::Overview ? orbitCamera(middle, 9.0, 30.0, 40.0)
                                                                : orbitCamera(corner, 0.9, 20.0, 15.0, 45.0));
   return scene;
 }
@@ -75,10 +75,11 @@ struct TeaTableSettings {
 
 Scene buildTeaTable(const TeaTableSettings& settings) {
   Scene scene;
-  addGround(scene, 9.0);
+  addGround(scene, 11.5);
   addSurface(scene, "tea_table", teaTable(), settings.tessellation, {0.75F, 0.7F, 0.62F});
   frameStanding(scene, 1.3, 0.85);
-  setStillCamera(scene, orbitCamera({0.0, 0.85, 0.0}, 3.6, 20.0, 32.0));
+  scene.lights[0].size = glm::dvec2(0.5);
+  setStillCamera(scene, orbitCamera({0.0, 0.85, 0.0}, 3.6, 20.0, 40.0));
   return scene;
 }
 
@@ -102,10 +103,11 @@ Scene buildHerd(const HerdSettings& settings) {
     append(herd, transformed(animal, glm::rotate(place, 0.5 * std::sin(1.7 * i), {0.0, 1.0, 0.0})));
   }
   Scene scene;
-  addGround(scene, 24.0);
+  addGround(scene, 32.0);
   addSurface(scene, "herd", std::move(herd), settings.tessellation, {0.62F, 0.5F, 0.4F});
   frameStanding(scene, 1.4, 4.0);
-  setStillCamera(scene, orbitCamera({0.0, 0.5, -0.3}, 9.5, 12.0, 22.0));
+  scene.lights[0].size = glm::dvec2(2.0);
+  setStillCamera(scene, orbitCamera({0.0, 0.4, -0.3}, 9.5, 12.0, 30.0));
   return scene;
 }
 

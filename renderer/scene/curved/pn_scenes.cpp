@@ -124,12 +124,12 @@ Scene buildStarField(const StarFieldSettings& settings) {
         }
       }
   Scene scene;
-  addGround(scene, 16.0);
+  addGround(scene, 21.0);
   addSurface(scene, "stars", curvedSet(field, settings.form), settings.tessellation, {0.75F, 0.68F, 0.4F});
   const double height = 0.3 + kStars.y * kCell;
   frameStanding(scene, height, 0.5 * kStars.x * kCell);
   const glm::dvec3 middle(0.0, 0.55 * height, 0.0), corner(0.3, 0.7 * height, 0.5 * kStars.z * kCell);
-  setStillCamera(scene, settings.view == StarView::Overview ? orbitCamera(middle, 8.0, 20.0, 25.0)
+  setStillCamera(scene, settings.view == StarView::Overview ? orbitCamera(middle, 8.0, 20.0, 40.0)
                                                             : orbitCamera(corner, 1.0, 20.0, 15.0, 45.0));
   return scene;
 }
