@@ -111,7 +111,7 @@ TEST(RayRoots, AtACollapsedSideAreReportedOnce) {
   for (int trial = 0; trial < 200; ++trial) {
     const dvec3 pole(0.0, trial % 2 ? 1.0 : -1.0, 0.0);
     dvec3 origin = 3.0 * random.direction();
-    origin.y = std::copysign(std::max(std::abs(origin.y), 0.5), pole.y);
+    origin.y = std::copysign(std::max(std::abs(origin.y), 2.0), pole.y);  // above the plane that touches the pole
     const double t = glm::length(pole - origin);
     const Ray ray{origin, (pole - origin) / t};
     int reports = 0;
