@@ -108,13 +108,6 @@ vec3 triangleBounds(int first, int n) {
                 edge1 = max(tangentDistance(b[7], b[6], b[9]), tangentDistance(b[8], b[6], b[9])),
                 edge2 = max(tangentDistance(b[2], b[0], b[9]), tangentDistance(b[5], b[0], b[9]));
     return vec3(max(edge0, max(edge1, edge2)));
-    uu *= float(m * (m - 1));
-    vv *= float(n * (n - 1));
-    uv *= float(m * n);
-    const vec2 segments = segmentsWithin(uu, uv, vv, 8.0 * eps * weight, RULE, float(mostSegments));
-    const int mu = whole(segments.x), mv = whole(segments.y);
-    ownFactors[number] = packedFactors(ivec4(mu, mv, mu, mv));
-    return;
   }
 #endif
   float own0 = 0.0, own1 = 0.0, own2 = 0.0, d13 = 0.0, d21 = 0.0, d32 = 0.0;
@@ -215,7 +208,8 @@ void main() {
   const vec3 second = secondBounds(first, shape, box, eps);
 #endif
   if (isRectangle(shape)) {
-    const vec2 segments = segmentsFor(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE);
+    const vec2 segments =
+        segmentsWithin(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE, float(mostSegments));
     ownFactors[number] = packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
   } else {
     ownFactors[number] = packedUnits(triangleUnits(second, eps, degreeU(shape)));
