@@ -246,6 +246,47 @@ TEST_F(Tessellation, AdaptedUniformPatternsShowTheSurface) {
     }
 }
 
+/// On a closed surface strips close every gap: no pixel far from the fine surface's colour is left.
+TEST_F(Tessellation, StripsCloseTheGapsBetweenLevels) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const Image fine =
+      render(torus, "tessellation/uniform_fine", {{"segments", int64_t{16}}}, {320, 240}).product;
+  const auto wrongPixels = [&](const Image& image) {
+    int wrong = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+      for (int x = 1; x + 1 < image.width; ++x) {
+        // Nearest of the pixels around: silhouettes may move by one.
+        double nearest = 1e9;
+        for (int b = y - 1; b <= y + 1; ++b)
+          for (int a = x - 1; a <= x + 1; ++a) {
+            double difference = 0.0;
+            for (int c = 0; c < 3; ++c) difference += std::abs(double(image.at(x, y, c)) - fine.at(a, b, c));
+            nearest = std::min(nearest, difference);
+          }
+        wrong += nearest > 0.1;
+      }
+    return wrong;
+  };
+  // A tolerance of 4 px makes gaps wide enough to be seen. Silhouettes of so coarse a surface lie elsewhere
+  // too: no more than those of one that has no gaps in the first place.
+  const Given coarse = {{"factors", std::string("deviation")}, {"factors.tolerance_px", 4.0}};
+  Given whole = coarse;
+  whole.emplace("spacing", std::string("dyadic"));
+  const int elsewhere = wrongPixels(render(torus, "tessellation/compute", whole, {320, 240}).product);
+  for (const bool batched : {true, false}) {
+    Given given = coarse;
+    given.emplace("batched", batched);
+    const Rendered closed = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    given.emplace("strips", false);
+    const Rendered gaps = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    EXPECT_GT(closed.counter("sides_stitched"), 20);
+    EXPECT_GT(closed.counter("strip_triangles"), 2 * closed.counter("sides_stitched"));
+    EXPECT_EQ(gaps.counter("strip_triangles"), 0);
+    EXPECT_GT(wrongPixels(gaps.product), wrongPixels(closed.product));
+    EXPECT_LE(wrongPixels(closed.product), elsewhere);
+  }
+}
+
 /// The surface that a technique makes in one frame.
 class TessellatedSurfaces : public Tessellation {
  protected:
