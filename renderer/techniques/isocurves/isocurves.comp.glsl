@@ -21,7 +21,7 @@ uniform float nearest;  // along the view
 uniform float spacing;  // px, of points and of curves
 uniform uint restart;   // steps after which the differences are computed anew
 
-TessellatedPatch patch_;
+TessellatedPatch patch_ = TessellatedPatch(0u, 0u, 0u, 0u, ivec4(-1));
 
 // x and y in pixels from the top left corner times the distance along the view; z: unused; w: that distance.
 vec4 clipPoint(int i) {

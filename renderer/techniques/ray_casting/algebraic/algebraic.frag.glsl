@@ -22,6 +22,9 @@ layout(binding = kNewtonStepsImage, r32ui) uniform writeonly uimage2D stepsTaken
 #endif
 uint stepCount = 0u;
 
+// Nested loops over arrays have fixed bounds and conditions within: Mesa 22.3 gives wrong values where the inner bound
+// depends on the outer counter.
+
 #ifdef DOUBLE
 #define LIMEN_REAL double
 #else
@@ -92,8 +95,8 @@ LIMEN_ALGEBRAIC(Gradient)
 #define VALUE barthDecicValue
 #endif
 
-vec3 origin, direction;  // of the ray; its origin is where it enters the ball or passes the near plane
-float reach;             // length of the ray's part in the ball
+vec3 origin = vec3(0.0), direction = vec3(0.0);  // of the ray; its origin is where it enters the ball or passes the near plane
+float reach = 0.0;             // length of the ray's part in the ball
 
 LIMEN_REAL valueAlong(LIMEN_REAL t) {
   return VALUE(LIMEN_REAL(origin.x) + LIMEN_REAL(direction.x) * t, LIMEN_REAL(origin.y) + LIMEN_REAL(direction.y) * t,
@@ -129,10 +132,12 @@ float firstRoot() {
     for (int i = 0; i <= DEGREE; ++i) part[i] = coefficients[i];
     // The left part up to `to`, then its right part from `from`.
     for (int level = 1; level <= DEGREE; ++level)
-      for (int i = DEGREE; i >= level; --i) part[i] += (LIMEN_REAL(1.0) - to) * (part[i - 1] - part[i]);
+      for (int k = 0; k < DEGREE; ++k)
+        if (k <= DEGREE - level) part[DEGREE - k] += (LIMEN_REAL(1.0) - to) * (part[DEGREE - k - 1] - part[DEGREE - k]);
     const LIMEN_REAL share = from / to;
-    for (int level = DEGREE; level >= 1; --level)
-      for (int i = 0; i < level; ++i) part[i] += share * (part[i + 1] - part[i]);
+    for (int level = 1; level <= DEGREE; ++level)
+      for (int i = 0; i < DEGREE; ++i)
+        if (i <= DEGREE - level) part[i] += share * (part[i + 1] - part[i]);
     bool positive = false, negative = false;
     for (int i = 0; i <= DEGREE; ++i) {
       positive = positive || part[i] >= LIMEN_REAL(0.0);
@@ -204,7 +209,8 @@ float firstRoot() {
   float m[DEGREE + 1];
   for (int i = 0; i <= DEGREE; ++i) m[i] = float(coefficients[i]);
   for (int level = 1; level <= DEGREE; ++level)
-    for (int i = DEGREE; i >= level; --i) m[i] -= m[i - 1];
+    for (int k = 0; k < DEGREE; ++k)
+      if (k <= DEGREE - level) m[DEGREE - k] -= m[DEGREE - k - 1];
 #if DEGREE == 2
   m[1] *= 2.0;
   const float scale_ = reach / m[2];
@@ -215,7 +221,7 @@ float firstRoot() {
   const float aa = a * a, p = b - 0.375 * aa, q = c - 0.5 * a * b + 0.125 * aa * a,
               r = d - 0.25 * a * c + aa * b / 16.0 - 3.0 * aa * aa / 256.0;
   // A positive root of z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
-  const float third = 2.0 * p / 3.0, cp = (p * p - 4.0 * r) - third * 2.0 * p + 3.0 * third * third,
+  const float third = 2.0 * p / 3.0, cp = (p * p - 4.0 * r) - 3.0 * third * third,
               cq = -third * third * third + 2.0 * p * third * third - (p * p - 4.0 * r) * third - q * q;
   const float disc = 0.25 * cq * cq + cp * cp * cp / 27.0;
   float z;
