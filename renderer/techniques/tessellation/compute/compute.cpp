@@ -12,6 +12,8 @@
 // - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
 #include <epoxy/gl.h>
 
+#include <cmath>
+
 #include "renderer/compute/prefix_sum.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
@@ -37,8 +39,7 @@ struct EvaluateDirectly {
 /// SC-72.
 struct EvaluateByDifferences {
   static constexpr const char *kKind = "forward_differences",
-                              *kSummary =
-                                  "rows of samples by forward differences, of bicubic patches";
+                              *kSummary = "rows of samples by forward differences, of bicubic patches";
   int restart = 64;
   static const SettingsTable<EvaluateByDifferences>& table() {
     static const SettingsTable<EvaluateByDifferences> kTable = {
@@ -56,6 +57,9 @@ enum class SharedSides { Evaluated, Copied };
 constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
   return {{{{SharedSides::Copied, "copied"}, {SharedSides::Evaluated, "evaluated"}}}};
 }
+
+constexpr int64_t kIndicesPerVertex = 6;
+constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
 
 struct ComputeTessellationSettings {
   FactorSettings tessellation;
@@ -86,7 +90,7 @@ struct ComputeTessellationSettings {
          "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
-         {4, 1 << 26},
+         {4, kMostVertices},
          "vertices",
          "Vertices that the buffers hold; indices: six times as many"},
         frame::shadingBinding(&S::shading)};
@@ -102,8 +106,6 @@ struct ComputeTessellationSettings {
                   "use spacing: integer or dyadic, or another form and direct evaluation");
   }
 };
-
-constexpr int64_t kIndicesPerVertex = 6;
 
 class ComputeTessellation : public Technique {
  public:
@@ -361,6 +363,13 @@ class UniformFine : public Technique {
     const int64_t side = settings_.segments + 1,
                   patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
     all.capacity = std::max<int64_t>(patches * side * side, 4);
+    if (all.capacity > kMostVertices)
+      throw Error(
+          std::to_string(patches) + " patches with " + std::to_string(settings_.segments) + " segments are " +
+              std::to_string(all.capacity) + " vertices, more than the " + std::to_string(kMostVertices) +
+              " that buffers take",
+          "segments",
+          "use at most " + std::to_string(int(std::sqrt(double(kMostVertices) / double(patches))) - 1));
     all.shading = settings_.shading;
     fine_.emplace(all);
     fine_->prepare(frame);
