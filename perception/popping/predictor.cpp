@@ -99,8 +99,8 @@ class Predictor {
     std::vector<Planes> differences;
     for (int level = 0; level < result_.model.contrastLevels; ++level) {
       Content before, after;
-      Planes response = respond(actual, level, "actual", after);
-      const Planes other = respond(predicted, level, "predicted", before);
+      Planes response = respond(actual, predicted, level, "actual", after);
+      const Planes other = respond(predicted, actual, level, "predicted", before);
       if (temporal_)
         response = switchBetween(predicted, before, actual, after, level);
       else
@@ -228,8 +228,10 @@ class Predictor {
     return opponent;
   }
 
-  // Contrast, opponent colours, normalisation by sensitivity, masking.
-  Planes respond(const FrameLevels& frame, int level, const std::string& name, Content& content) {
+  // Contrast, opponent colours, normalisation by sensitivity, masking. In a switch to or from `other`, parts
+  // of bands are weighted for both frames' mean speed, as in switchBetween().
+  Planes respond(const FrameLevels& frame, const FrameLevels& other, int level, const std::string& name,
+                 Content& content) {
     const std::string suffix = name + "_" + std::to_string(level);
     const auto i = static_cast<size_t>(level);
     Planes contrast, coarser, once, twice;
@@ -269,7 +271,13 @@ class Predictor {
           const glm::dvec3 opponent = opponentOf(whole) / gain;
           glm::dvec3 normalised;
           if (isFitted_) {
-            const Sensitivity::PartWeights weights = sensitivity_->weights(level, v, luminance.at(x, y));
+            const size_t p = static_cast<size_t>(y) * static_cast<size_t>(width) + x;
+            const double ofParts =
+                temporal_ ? retinalVelocityDegS(0.5 * (screenDegS(frame, i, p) + screenDegS(other, i, p)),
+                                                eyeModel_, leastVelocityDegS_)
+                          : v;
+            Sensitivity::PartWeights weights = sensitivity_->weights(level, ofParts, luminance.at(x, y));
+            if (temporal_) weights.peak = sensitivity_->weights(level, v, luminance.at(x, y)).peak;
             glm::dvec3 parts[kBandParts];
             for (int c = 0; c < 3; ++c) {
               const auto at = static_cast<size_t>(c);

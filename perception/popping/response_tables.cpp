@@ -17,9 +17,9 @@
 namespace limen::perception {
 namespace {
 
-// Nodes in a decade of velocity or luminance: sensitivities are straight enough between them for an error
-// below 1e-3 of their value.
-constexpr double kTableNodesPerDecade = 65.0;
+// Nodes in a decade of velocity and luminance: sensitivities are straight enough between them for an error
+// below 1e-3 of a response. Velocity needs the most: sensitivity to fast patterns falls steeply with it.
+const glm::dvec2 kTableNodesPerDecade(130.0, 33.0);
 constexpr double kTableFastest = 1e3, kTableSlowest = 1e-5;    ///< deg/s
 constexpr double kTableBrightest = 1e4, kTableDarkest = 1e-4;  ///< cd/m2; adaptation is clamped to this range
 

@@ -159,8 +159,14 @@ std::vector<glm::dvec4> sidePoints(const PatchSet& set, const Patch& patch, int 
 }
 
 bool isCollapsed(const PatchSet& set, const Patch& patch, int side) {
+  constexpr double kRounding = 1e-13;
   const std::vector<glm::dvec4> points = sidePoints(set, patch, side);
-  return std::all_of(points.begin(), points.end(), [&](const glm::dvec4& p) { return p == points[0]; });
+  const glm::dvec4& first = points[0];
+  return std::all_of(points.begin(), points.end(), [&](const glm::dvec4& p) {
+    if (p.w == 0.0 || first.w == 0.0) return p == first;
+    const glm::dvec3 a = glm::dvec3(first) / first.w, b = glm::dvec3(p) / p.w;
+    return glm::length(a - b) <= kRounding * glm::length(a);
+  });
 }
 
 }  // namespace limen::surfaces

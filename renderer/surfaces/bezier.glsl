@@ -12,11 +12,13 @@ const float kBezierBinomials[55] = float[55](LIMEN_BINOMIALS);
 
 // A point of the domain with what is left to 1 (domain_point.h): (u, v, 1 - u, 1 - v) of a rectangle,
 // (u, v, w, unused) of a triangle.
+// Division may be off by 2.5 units in the last place, and m / m must be 1: a boundary's points are its own alone.
+float gridFraction(int i, int m) { return i == m ? 1.0 : float(i) / float(m); }
 vec4 rectangleGridPoint(int i, int m, int j, int n) {
-  return vec4(float(i) / float(m), float(j) / float(n), float(m - i) / float(m), float(n - j) / float(n));
+  return vec4(gridFraction(i, m), gridFraction(j, n), gridFraction(m - i, m), gridFraction(n - j, n));
 }
 vec4 triangleGridPoint(int i, int j, int m) {
-  return vec4(float(i) / float(m), float(j) / float(m), float(m - i - j) / float(m), 0.0);
+  return vec4(gridFraction(i, m), gridFraction(j, m), gridFraction(m - i - j, m), 0.0);
 }
 
 // Value and derivatives with respect to u and v; of a triangle, w follows them.
@@ -112,20 +114,60 @@ vec4 quadraticSum(vec3 basis, vec4 c0, vec4 c1, vec4 c2) {
   return sum;
 }
 
-// bezierRectangle(3, 3, at, 1) without loops over degrees and with the same bits.
-BezierJet bezierBicubic(vec4 at) {
-  const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
-  const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
-  vec4 p[4], u[4];
-  for (int j = 0; j < 4; ++j) {
-    const vec4 c0 = bezierPoint(4 * j), c1 = bezierPoint(4 * j + 1), c2 = bezierPoint(4 * j + 2),
-               c3 = bezierPoint(4 * j + 3);
-    p[j] = cubicSum(bu, c0, c1, c2, c3);
-    u[j] = 3.0 * quadraticSum(du, c1 - c0, c2 - c1, c3 - c2);
-  }
-  return BezierJet(cubicSum(bv, p[0], p[1], p[2], p[3]), cubicSum(bv, u[0], u[1], u[2], u[3]),
-                   3.0 * quadraticSum(dv, p[1] - p[0], p[2] - p[1], p[3] - p[2]), vec4(0.0), vec4(0.0), vec4(0.0));
+// Points of a bicubic patch: homogeneous, or, if the includer says that all weights are 1, positions.
+#ifdef LIMEN_POLYNOMIAL
+#define BicubicPoint vec3
+vec3 bicubicPoint(int index) { return bezierPoint(index).xyz; }
+vec4 homogeneousPoint(vec3 p) { return vec4(p, 1.0); }
+vec4 homogeneousDerivative(vec3 d) { return vec4(d, 0.0); }
+vec3 cubicSum(vec4 basis, vec3 c0, vec3 c1, vec3 c2, vec3 c3) {
+  precise vec3 outer = c0 * basis.x + c3 * basis.w;
+  precise vec3 inner = c1 * basis.y + c2 * basis.z;
+  precise vec3 sum = outer + inner;
+  return sum;
 }
+vec3 quadraticSum(vec3 basis, vec3 c0, vec3 c1, vec3 c2) {
+  precise vec3 outer = c0 * basis.x + c2 * basis.z;
+  precise vec3 sum = outer + c1 * basis.y;
+  return sum;
+}
+#else
+#define BicubicPoint vec4
+vec4 bicubicPoint(int index) { return bezierPoint(index); }
+vec4 homogeneousPoint(vec4 p) { return p; }
+vec4 homogeneousDerivative(vec4 d) { return d; }
+#endif
+
+// The curve along v at a u of a bicubic patch, and its derivative with respect to u.
+struct BicubicColumn {
+  BicubicPoint p0, p1, p2, p3, u0, u1, u2, u3;
+};
+void bicubicRow(int j, vec4 bu, vec3 du, out BicubicPoint p, out BicubicPoint u) {
+  const BicubicPoint c0 = bicubicPoint(4 * j), c1 = bicubicPoint(4 * j + 1), c2 = bicubicPoint(4 * j + 2),
+                     c3 = bicubicPoint(4 * j + 3);
+  p = cubicSum(bu, c0, c1, c2, c3);
+  u = 3.0 * quadraticSum(du, c1 - c0, c2 - c1, c3 - c2);
+}
+BicubicColumn bicubicColumn(float u, float rest) {
+  const vec4 bu = cubicBasis(u, rest);
+  const vec3 du = quadraticBasis(u, rest);
+  BicubicColumn c;
+  bicubicRow(0, bu, du, c.p0, c.u0);
+  bicubicRow(1, bu, du, c.p1, c.u1);
+  bicubicRow(2, bu, du, c.p2, c.u2);
+  bicubicRow(3, bu, du, c.p3, c.u3);
+  return c;
+}
+BezierJet bicubicAt(BicubicColumn c, float v, float rest) {
+  const vec4 bv = cubicBasis(v, rest);
+  return BezierJet(
+      homogeneousPoint(cubicSum(bv, c.p0, c.p1, c.p2, c.p3)), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
+      homogeneousDerivative(3.0 * quadraticSum(quadraticBasis(v, rest), c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
+      vec4(0.0), vec4(0.0), vec4(0.0));
+}
+
+// bezierRectangle(3, 3, at, 1) without loops over degrees and, but for LIMEN_POLYNOMIAL, with the same bits.
+BezierJet bezierBicubic(vec4 at) { return bicubicAt(bicubicColumn(at.x, at.z), at.y, at.w); }
 
 // Place of the point (i, j, k), i + j + k = n, of a triangle of degree n.
 int triangleIndex(int n, int i, int k) { return (n - i) * (n - i + 1) / 2 + k; }

@@ -49,7 +49,8 @@ double controlDiagonal(const PatchSet& set, const Patch& patch);
 /// Control points of a side in its direction; their number is the side's degree + 1.
 std::vector<glm::dvec4> sidePoints(const PatchSet& set, const Patch& patch, int side);
 
-/// Whether all control points of a side are the same. Positions along it differ by rounding nevertheless.
+/// Whether all control points of a side are in the same place but for rounding; weights may differ. Positions
+/// along it differ by rounding as well.
 bool isCollapsed(const PatchSet& set, const Patch& patch, int side);
 
 }  // namespace limen::surfaces

@@ -191,6 +191,19 @@ LIMEN_SLOTS int patternOuterSlot(PatternPlan plan, int second, int k) {
   return k == 0 ? plan.coreVertices : plan.coreVertices + plan.first.outer + k;
 }
 
+// Vertex slot of the q-th sample of a side with n segments, 0 < q < n.
+LIMEN_SLOTS int patternSideSlot(PatternPlan plan, int side, int q, int n) {
+  if (plan.first.side == side) return patternOuterSlot(plan, 0, plan.first.reversed == 1 ? n - q : q);
+  if (plan.second.side == side) return patternOuterSlot(plan, 1, plan.second.reversed == 1 ? n - q : q);
+  const ivec4 s = patternSideSample(plan.rectangle, side, q, n);
+  if (plan.rectangle == 1) {
+    const int i = side == 1 ? plan.mu : s.x, j = side == 2 ? plan.mv : s.z;
+    return (j - plan.low.y) * (plan.cols + 1) + i - plan.low.x;
+  }
+  const int row = plan.low.x + plan.cols - s.x;
+  return row * (row + 1) / 2 + s.z - plan.low.z;
+}
+
 LIMEN_SLOTS int patternInnerSlot(PatternPlan plan, PatternTransition strip, int k) {
   const int along = strip.reversed == 1 ? strip.inner - k : k;  // from the side's first corner
   if (plan.rectangle == 1) {

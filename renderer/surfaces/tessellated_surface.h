@@ -3,6 +3,7 @@
 
 #include "renderer/surfaces/domain_point.h"
 #include "renderer/surfaces/patterns.h"
+#include "renderer/surfaces/spacing.h"
 
 namespace limen::surfaces {
 
@@ -32,6 +33,15 @@ inline DomainPoint domainPointOf(const PatternPlan& plan, int slot) {
   return plan.rectangle == 1 ? DomainPoint{double(s.x) / s.y, double(s.z) / s.w, double(s.y - s.x) / s.y,
                                            double(s.w - s.z) / s.w}
                              : triangleGridPoint(s.x, s.y, s.w);
+}
+
+/// The same with a side's real factors, in 1 / kSegmentUnit, that `spacing` divides.
+inline DomainPoint spacedPointOf(const PatternPlan& plan, int slot, int spacing, ivec4 units) {
+  if (plan.rectangle == 0) return domainPointOf(plan, slot);
+  const ivec4 s = patternSample(plan, slot);
+  const int side = sideOfSample(1, s), u = unitsAlong(units, side, 0), v = unitsAlong(units, side, 1);
+  return {spacedPlace(spacing, u, s.x, s.y), spacedPlace(spacing, v, s.z, s.w),
+          spacedPlace(spacing, u, s.y - s.x, s.y), spacedPlace(spacing, v, s.w - s.z, s.w)};
 }
 
 }  // namespace limen::surfaces

@@ -59,11 +59,32 @@ TEST(Descriptor, NeedsNoReferenceForMetricsThatEvaluateOneImage) {
   EXPECT_EQ(descriptor.images.size(), 1U);
 }
 
+TEST(Descriptor, RefusesMetricsOfTessellationsForTechniquesThatMakeNone) {
+  const std::string text =
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\nmetrics: "
+      "[crack_count]\n";
+  Catalogue catalogue = fakeCatalogue();
+  catalogue.metrics["crack_count"].needsTessellation = true;
+  EXPECT_THROW(parseDescriptor(text, "d.yaml", catalogue, {}), Error);
+  catalogue.techniques["soft/pcss"].tessellates = true;
+  EXPECT_NO_THROW(parseDescriptor(text, "d.yaml", catalogue, {}));
+}
+
 TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
   EXPECT_EQ(parse("title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"
                   "report: {x: fetches_per_px, y: gpu_ms}\n")
                 .report["x"],
             "fetches_per_px");
+}
+
+TEST(Descriptor, AReportFitsOverParameters) {
+  const std::string text =
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/sampled, samples: [4, 16]}]\n";
+  EXPECT_EQ(parse(text).report.count("fit"), 0U);
+  EXPECT_EQ(parse(text + "report: {fit: samples}\n").report["fit"], "samples");
+  EXPECT_EQ(parse(text + "report: {x: samples, fit: [samples, width]}\n").report["fit"], "samples, width");
+  for (const char* wrong : {"sample", "[samples, gpu_ms]", "[]", "{a: 1}", "technique"})
+    EXPECT_THROW(parse(text + "report: {fit: " + wrong + "}\n"), Error) << wrong;
 }
 
 TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {

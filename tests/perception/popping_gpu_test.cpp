@@ -168,6 +168,9 @@ TEST_F(PoppingGpu, SwitchesAgreeOverTime) {
   const PoppingResult flashed = expectReference(in, "shown for a quarter of a frame", settings);
   EXPECT_GT(flashed.summary.meanJnd, held.summary.meanJnd);
   settings = {};
+  settings.bands.weights = FittedWeights{};
+  expectReference(in, "fitted weights", settings);
+  settings = {};
   settings.neighbourhood = ExtendedMasking{};
   const PoppingResult masked = expectReference(in, "masked by neighbours", settings);
   EXPECT_LT(masked.summary.meanJnd, held.summary.meanJnd);

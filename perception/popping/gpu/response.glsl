@@ -144,6 +144,9 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   vec3 contrasts[2];
   vec2 luminances;
   float screenDegS = 0.0;
+  for (int frame = 0; frame < frameCount; ++frame)
+    screenDegS += 0.5 * texelFetch(cones, ivec3(pixel, frame), level).w * degSPerPx;
+  float retinalDegS = retinalVelocity(screenDegS);  // of the content of both frames
 #endif
   for (int frame = 0; frame < frameCount; ++frame) {
     vec4 own = texelFetch(cones, ivec3(pixel, frame), level);
@@ -164,21 +167,32 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
     vec3 denominator = max(coarser, vec3(epsilon));
     float luminance = luminanceAt(frame, pixel), velocity = retinalVelocity(own.w * degSPerPx);
 #ifdef FITTED_WEIGHTS
+    // Relative to the pixel's own value, which keeps the digits that parts of small contrast are made of.
     precise vec3 once = vec3(0.0);
     precise vec3 twice = vec3(0.0);
+    precise vec3 coarserNext = vec3(0.0);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        int at = frame * kNeighbourCount + (m.y + dy) * kNeighbours.x + m.x + dx;
+        coarserNext = fma(vec3(across[dx + 1] * down[dy + 1]), next[at].xyz - own.xyz, coarserNext);
+      }
     ivec2 local = ivec2(gl_LocalInvocationID.xy) + 2;
     for (int dy = -2; dy <= 2; ++dy)
       for (int dx = -2; dx <= 2; ++dx) {
-        vec3 value = ownLevel[frame * kOwnCount + (local.y + dy) * kOwn.x + local.x + dx].xyz;
+        vec3 value = ownLevel[frame * kOwnCount + (local.y + dy) * kOwn.x + local.x + dx].xyz - own.xyz;
         twice = fma(vec3(kTwice[dx + 2] * kTwice[dy + 2]), value, twice);
         once = fma(vec3(kOnce[dx + 2] * kOnce[dy + 2]), value, once);
       }
     vec3 weights[3];
     for (int part = 0; part < 3; ++part)
+#ifdef TEMPORAL_CHANNELS
+      weights[part] = tableAt(partWeights, partTable, retinalDegS, luminance, 3 * level + part).xyz;
+#else
       weights[part] = tableAt(partWeights, partTable, velocity, luminance, 3 * level + part).xyz;
-    precise vec3 atPeak = opponentOf((own.xyz - once) / denominator) * weights[0];
+#endif
+    precise vec3 atPeak = opponentOf(-once / denominator) * weights[0];
     atPeak = fma(opponentOf((once - twice) / denominator), weights[1], atPeak);
-    atPeak = fma(opponentOf((twice - finer) / denominator), weights[2], atPeak);
+    atPeak = fma(opponentOf((twice - coarserNext) / denominator), weights[2], atPeak);
     precise vec3 normalised =
         atPeak * max(tableAt(sensitivities, table, velocity, luminance, level).xyz, vec3(LEAST_SENSITIVITY));
 #ifdef TEMPORAL_CHANNELS
@@ -206,11 +220,9 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
 #endif
 #ifdef TEMPORAL_CHANNELS
     luminances[frame] = luminance;
-    screenDegS += 0.5 * own.w * degSPerPx;
 #endif
   }
 #ifdef TEMPORAL_CHANNELS
-  float retinalDegS = retinalVelocity(screenDegS);
   SwitchContent contents[2];
   for (int frame = 0; frame < frameCount; ++frame)
     contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, table, retinalDegS, luminances[frame], level),

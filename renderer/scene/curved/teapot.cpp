@@ -16,10 +16,10 @@ namespace {
 struct ProfilePoint {
   double radius, bulge, height;
 };
-using Profile = std::array<ProfilePoint, 4>;
+using QuarterProfile = std::array<ProfilePoint, 4>;
 
 /// From below to above, as seen walking along the outside.
-constexpr std::array<Profile, 6> kProfiles = {{
+constexpr std::array<QuarterProfile, 6> kProfiles = {{
     {{{0.0, 0.0, 0.0}, {1.425, 0.798, 0.0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}}},  // bottom
     {{{1.5, 0.84, 0.15}, {1.5, 0.84, 0.225}, {2.0, 1.12, 0.45}, {2.0, 1.12, 0.9}}},   // lower body
     {{{2.0, 1.12, 0.9}, {2.0, 1.12, 1.35}, {1.75, 0.98, 1.875}, {1.5, 0.84, 2.4}}},   // upper body
@@ -54,7 +54,7 @@ constexpr Tube kSpout = {{{{1.7, 1.425}, {1.7, 0.6}, 0.66},
 using Net = std::array<glm::dvec4, 16>;
 
 /// u runs around the axis, counter-clockwise seen from above, v along the profile.
-void addQuarter(surfaces::PatchSet& set, const Profile& profile, int quarter) {
+void addQuarter(surfaces::PatchSet& set, const QuarterProfile& profile, int quarter) {
   constexpr std::array<glm::dvec2, 4> kAlong = {{{1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}}};
   const glm::dvec2 x = kAlong[static_cast<size_t>(quarter)], y = kAlong[static_cast<size_t>(quarter + 1) % 4];
   Net net;
@@ -87,7 +87,7 @@ void addTube(surfaces::PatchSet& set, const Tube& tube) {
 
 surfaces::PatchSet teapot() {
   surfaces::PatchSet set;
-  for (const Profile& profile : kProfiles)
+  for (const QuarterProfile& profile : kProfiles)
     for (int quarter = 0; quarter < 4; ++quarter) addQuarter(set, profile, quarter);
   addTube(set, kHandle);
   addTube(set, kSpout);

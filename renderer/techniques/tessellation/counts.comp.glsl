@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phase 2: of a common side the larger factor; vertices and indices of each patch. See factor_pass.h.
-#include "renderer/surfaces/pattern_slots.h"
+#include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
 
 layout(local_size_x = kTessellationGroup) in;
-layout(std430, binding = kOwnFactorsBuffer) readonly buffer OwnFactors { uint ownFactors[]; };
-layout(std430, binding = kFactorsBuffer) writeonly buffer Factors { uint factors[]; };
+layout(std430, binding = kOwnFactorsBuffer) readonly buffer OwnFactors { uvec2 ownFactors[]; };
+layout(std430, binding = kFactorsBuffer) writeonly buffer Factors { PatchFactors factors[]; };
 layout(std430, binding = kSlotCountsBuffer) writeonly buffer SlotCounts { uvec2 slotCounts[]; };
 
 uniform uint patchCount;
@@ -14,19 +14,22 @@ uniform int cornerFix;
 void main() {
   const uint number = gl_GlobalInvocationID.x;
   if (number >= patchCount) return;
-  const uint own = ownFactors[number];
-  if (own == 0u) {
-    factors[number] = 0u;
+  const uvec2 own = ownFactors[number];
+  if (own == uvec2(0u)) {
+    factors[number] = PatchFactors(0u, 0u, 0u, 0u);
     slotCounts[number] = uvec2(0u);
     return;
   }
   const TessellatedPatch patch_ = patches[number];
-  ivec4 mine = unpackedFactors(own);
+  ivec4 units = unpackedUnits(own);
   for (int side = 0; side < 4; ++side) {
     const int neighbour = patch_.neighbours[side];
-    if (neighbour >= 0) mine[side] = max(mine[side], int(ownFactors[neighbour / 4] >> (neighbour % 4 * 8) & 255u));
+    if (neighbour >= 0) units[side] = max(units[side], unpackedUnits(ownFactors[neighbour / 8])[neighbour / 2 % 4]);
   }
-  factors[number] = packedFactors(mine);
+  ivec4 mine;
+  for (int side = 0; side < 4; ++side) mine[side] = spacedSegments(SPACING, units[side]);
+  const uvec2 packed_ = packedUnits(units);
+  factors[number] = PatchFactors(packedSegments(mine), packed_.x, packed_.y, 0u);
   PatternPlan plan;
   if (isRectangle(shapeOf(patch_))) {
     plan = rectanglePattern(mine, cornerFix);

@@ -20,6 +20,8 @@ const SettingsTable<ByDeviation>& ByDeviation::table() {
        "Schwarz 2009, section 7.4 (0.5 px in all results)"},
       {&S::rule, "rule", "How a bound is divided between the two directions of a rectangle",
        "Schwarz 2009, section 7.4.2"},
+      {&S::triangleRule, "triangle_rule", "Which bound gives the factors of cubic triangles",
+       "Schwarz 2009, sections 7.4.3 and 7.4.4"},
       {&S::strict, "strict",
        "Allow for displacements away from the middle of the picture, which look larger than their size"},
       {&S::most, "most", {1, 64}, "segments", "Most segments of a side"}};
@@ -39,48 +41,74 @@ const SettingsTable<FactorSettings>& FactorSettings::table() {
       {&S::factors, "factors", "Segments along the sides of patches"},
       {&S::cull, "cull", "Leave out patches outside the view", "Schwarz 2009, section 7.6.2"},
       {&S::cornerFix, "corner_fix", "Correct the shape of triangles where two transitions meet",
-       "Schwarz 2009, section 7.3 (off in section 7.6.2, for simplicity)"}};
+       "Schwarz 2009, section 7.3 (off in section 7.6.2, for simplicity)"},
+      {&S::precompute, "precompute",
+       "Make boxes and bounds of patches once, not in every frame; boxes and bounds of rational patches are "
+       "then "
+       "somewhat larger",
+       "Schwarz 2009, section 7.6.3"}};
   return kTable;
 }
 
 namespace {
 
-gl::ShaderDefines withRule(gl::ShaderDefines defines, const FactorSettings& settings) {
+gl::ShaderDefines factorDefines(gl::ShaderDefines defines, const FactorSettings& settings) {
   const auto* deviation = std::get_if<ByDeviation>(&settings.factors);
   defines["RULE"] = std::to_string(deviation ? static_cast<int>(deviation->rule) : surfaces::kRuleGuthe);
+  if (deviation && deviation->triangleRule != TriangleRule::Sides)
+    defines["PN_CONSTANT"] = std::to_string(
+        surfaces::constantOf(deviation->triangleRule == TriangleRule::PnEstimate ? surfaces::PnBound::Boundary
+                             : deviation->triangleRule == TriangleRule::PnTied   ? surfaces::PnBound::Tied
+                                                                                 : surfaces::PnBound::Safe));
   return defines;
 }
 
-gl::ShaderDefines withLists(gl::ShaderDefines defines, bool lists) {
-  if (lists) defines["LISTS"] = "1";
+gl::ShaderDefines with(gl::ShaderDefines defines, const char* name, bool wanted = true) {
+  if (wanted) defines[name] = "1";
   return defines;
 }
+
+gl::ShaderDefines countDefines(gl::ShaderDefines defines, bool lists, Spacing spacing) {
+  defines["SPACING"] = std::to_string(static_cast<int>(spacing));
+  return with(std::move(defines), "LISTS", lists);
+}
+
+constexpr const char* kFactors = "renderer/techniques/tessellation/factors.comp.glsl";
 
 }  // namespace
 
 FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
-                       bool lists)
+                       bool lists, Spacing spacing)
     : patches_(patches),
       settings_(settings),
-      factorsProgram_(frame.context().programs().compute("renderer/techniques/tessellation/factors.comp.glsl",
-                                                         withRule(patches.defines(), settings))),
+      factorsProgram_(frame.context().programs().compute(
+          kFactors, with(factorDefines(patches.defines(), settings), "BOUNDS_MADE", settings.precompute))),
       countsProgram_(frame.context().programs().compute("renderer/techniques/tessellation/counts.comp.glsl",
-                                                        withLists(patches.defines(), lists))),
-      own_(int64_t{patches.count()} * 4, nullptr),
-      factors_(int64_t{patches.count()} * 4, nullptr),
-      counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr) {}
+                                                        countDefines(patches.defines(), lists, spacing))),
+      own_(int64_t{patches.count()} * 8, nullptr),
+      factors_(int64_t{patches.count()} * int64_t{sizeof(PatchFactors)}, nullptr),
+      counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
+      bounds_((settings.precompute ? int64_t{patches.count()} : 1) * int64_t{sizeof(PatchBounds)}, nullptr) {
+  if (!settings.precompute) return;
+  patches_.bindStorage();
+  bounds_.bindStorage(kPatchBoundsBuffer);
+  dispatch(frame.context().programs().compute(
+      kFactors, with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS")));
+}
+
+void FactorPass::dispatch(const gl::Program& program) const {
+  program.set("patchCount", patches_.count());
+  program.use();
+  const uint32_t groups =
+      (patches_.count() + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+  glDispatchCompute(groups, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
 
 void FactorPass::run(frame::Frame& frame) const {
-  const auto dispatch = [&](const gl::Program& program) {
-    program.set("patchCount", patches_.count());
-    program.use();
-    const uint32_t groups =
-        (patches_.count() + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
-    glDispatchCompute(groups, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  };
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
+  bounds_.bindStorage(kPatchBoundsBuffer);
   {
     const auto scope = frame.passes().open("tessellation/factors");
     const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);

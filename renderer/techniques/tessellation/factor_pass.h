@@ -6,15 +6,53 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/surfaces/factors.h"
+#include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
 
 namespace limen::techniques {
+
+/// Which bound gives the factors of cubic triangles.
+enum class TriangleRule {
+  Sides,       ///< three factors from second derivatives (SC-57)
+  PnEstimate,  ///< one from the distances of tangent points, constant 9/4: an estimate (SC-58)
+  PnTied,      ///< constant 39/4: a bound for PN triangles
+  PnSafe       ///< constant 45/4: a bound for any inner control point within 1.5 distances
+};
+constexpr EnumNames<TriangleRule, 4> enumNames(TriangleRule) {
+  return {{{{TriangleRule::PnEstimate, "pn_estimate"},
+            {TriangleRule::PnSafe, "pn_safe"},
+            {TriangleRule::PnTied, "pn_tied"},
+            {TriangleRule::Sides, "sides"}}}};
+}
+
+/// How sides are divided; the numbers of spacing.h.
+enum class Spacing {
+  Integer = surfaces::kSpacingInteger,
+  Dyadic = surfaces::kSpacingDyadic,
+  FractionalEven = surfaces::kSpacingFractionalEven,
+  FractionalOdd = surfaces::kSpacingFractionalOdd,
+  Moreton = surfaces::kSpacingMoreton,
+  Geomorph = surfaces::kSpacingGeomorph
+};
+constexpr EnumNames<Spacing, 6> enumNames(Spacing) {
+  return {{{{Spacing::Dyadic, "dyadic"},
+            {Spacing::FractionalEven, "fractional_even"},
+            {Spacing::FractionalOdd, "fractional_odd"},
+            {Spacing::Geomorph, "geomorph"},
+            {Spacing::Integer, "integer"},
+            {Spacing::Moreton, "moreton"}}}};
+}
+constexpr bool isFractional(Spacing spacing) {
+  return spacing == Spacing::FractionalEven || spacing == Spacing::FractionalOdd ||
+         spacing == Spacing::Moreton;
+}
 
 /// Factors from bounds on the deviation (Schwarz 2009, sections 7.4.2 to 7.4.4; SC-55 to SC-57).
 struct ByDeviation {
   static constexpr const char *kKind = "deviation", *kSummary = "from a bound on the distance to the surface";
   double tolerancePx = 0.5;
   surfaces::FactorRule rule = surfaces::FactorRule::AbiEzziShirman;
+  TriangleRule triangleRule = TriangleRule::Sides;
   bool strict = false;
   int most = 64;
   static const SettingsTable<ByDeviation>& table();
@@ -31,6 +69,7 @@ struct FactorSettings {
   std::variant<ByDeviation, BySegments> factors;
   bool cull = true;
   bool cornerFix = true;
+  bool precompute = false;
   static const SettingsTable<FactorSettings>& table();
 };
 
@@ -40,19 +79,24 @@ class FactorPass {
  public:
   /// `lists`: triangles are counted, not indices of strips.
   FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
-             bool lists = false);
+             bool lists = false, Spacing spacing = Spacing::Integer);
   /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 
-  const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer
-  const gl::Buffer& counts() const { return counts_; }    ///< uvec2 per patch, and one more
-  int64_t bytes() const { return own_.bytes() + factors_.bytes() + counts_.bytes(); }
+  const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer: PatchFactors
+  const gl::Buffer& ownFactors() const {
+    return own_;
+  }  ///< kOwnFactorsBuffer, before neighbours are looked at
+  const gl::Buffer& counts() const { return counts_; }  ///< uvec2 per patch, and one more
+  int64_t bytes() const { return own_.bytes() + factors_.bytes() + counts_.bytes() + bounds_.bytes(); }
 
  private:
   const PatchBuffers& patches_;
   FactorSettings settings_;
+  void dispatch(const gl::Program& program) const;
+
   const gl::Program &factorsProgram_, &countsProgram_;
-  gl::Buffer own_, factors_, counts_;
+  gl::Buffer own_, factors_, counts_, bounds_;
 };
 
 }  // namespace limen::techniques

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phase 1: factors of each patch for itself, 0 where it lies outside the view. See factor_pass.h.
 #include "renderer/surfaces/factor_rules.h"
+#include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
 
 layout(local_size_x = kTessellationGroup) in;
-layout(std430, binding = kOwnFactorsBuffer) writeonly buffer OwnFactors { uint ownFactors[]; };
+layout(std430, binding = kOwnFactorsBuffer) writeonly buffer OwnFactors { uvec2 ownFactors[]; };
+
+#ifdef BOUNDS_MADE
+layout(std430, binding = kPatchBoundsBuffer) readonly buffer Bounds { PatchBounds bounds[]; };
+#else
+layout(std430, binding = kPatchBoundsBuffer) writeonly buffer Bounds { PatchBounds bounds[]; };
+#endif
 
 uniform uint patchCount;
 uniform mat4 anchorToCamera;
@@ -17,103 +24,93 @@ uniform int cull, strict;
 
 vec3 projected(vec4 p) { return p.w == 0.0 ? p.xyz : p.xyz / p.w; }
 
-int whole(float segments) {
-  return segments <= float(mostSegments) ? max(1, int(ceil(segments))) : mostSegments;  // a NaN: all
+// A NaN counts as too many. Rounded up, so that a bound is kept.
+int units(float segments) {
+  if (!(segments <= float(mostSegments))) return mostSegments * kSegmentUnit;
+  return max(kSegmentUnit, int(ceil(segments * float(kSegmentUnit))));
 }
 
 float size4(vec4 difference, float reach) { return length(difference.xyz) + reach * abs(difference.w); }
 
-void main() {
-  const uint number = gl_GlobalInvocationID.x;
-  if (number >= patchCount) return;
-  const TessellatedPatch patch_ = patches[number];
-  const uint shape = shapeOf(patch_);
-  const int count = pointCount(shape), first = int(patch_.firstPoint);
-
-  vec3 low = vec3(3e38), high = vec3(-3e38);
-  float least = 3e38, weight = 3e38, offAxis = 0.0;
-  bool left = true, right = true, above = true, below = true, behind = true, finite = true;
+// Box, weights; whether they are all positive.
+PatchBounds boxOf(int first, int count) {
+  PatchBounds out_;
+  out_.low = vec3(3e38);
+  out_.high = vec3(-3e38);
+  out_.weight = 3e38;
+  out_.finite = 1u;
+  out_.second = vec3(0.0);
+  out_.unused = 0.0;
   for (int i = 0; i < count; ++i) {
     const vec4 point = patchPoints[first + i];
-    const vec3 p = projected(point), seen = (anchorToCamera * vec4(p, 1.0)).xyz;
-    weight = min(weight, point.w);
-    finite = finite && point.w > 0.0;
-    low = min(low, p);
-    high = max(high, p);
-    const float depth = -seen.z;
-    least = min(least, depth);
-    left = left && seen.x < -rayScale.x * depth;
-    right = right && seen.x > rayScale.x * depth;
-    below = below && seen.y < -rayScale.y * depth;
-    above = above && seen.y > rayScale.y * depth;
-    behind = behind && depth < nearest;
-    const float near_ = max(depth, nearest);
-    offAxis = max(offAxis, dot(seen.xy, seen.xy) / (near_ * near_));
+    const vec3 p = projected(point);
+    out_.weight = min(out_.weight, point.w);
+    if (!(point.w > 0.0)) out_.finite = 0u;
+    out_.low = min(out_.low, p);
+    out_.high = max(out_.high, p);
   }
-  // Only a patch with positive weights lies within the hull of its control points.
-  if (cull != 0 && finite && (left || right || below || above || behind)) {
-    ownFactors[number] = 0u;
-    return;
-  }
-  if (uniformSegments > 0) {
-    ownFactors[number] = packedFactors(ivec4(uniformSegments));
-    return;
-  }
-  float eps = tolerance * max(least, nearest);
-  if (strict != 0) eps /= sqrt(1.0 + min(offAxis, dot(rayScale, rayScale)));
-  if (!finite) {
-    ownFactors[number] = packedFactors(ivec4(mostSegments));
-    return;
-  }
-  const vec3 centre = 0.5 * (low + high);
+  return out_;
+}
 
-  if (isRectangle(shape)) {
-    // Bounds of Zheng and Sederberg 2000 with the origin in the middle; as derivativeBounds() of factors.h.
-    const int m = degreeU(shape), n = degreeV(shape);
-    float reach = 0.0;
-    for (int i = 0; i < count; ++i) reach = max(reach, length(projected(patchPoints[first + i]) - centre));
-    reach = max(reach - eps, 0.0);
-    float uu = 0.0, uv = 0.0, vv = 0.0;
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= m; ++i) {
-        const int at = first + i + (m + 1) * j;
-        vec4 p = patchPoints[at];
-        p.xyz -= p.w * centre;
-        if (i + 1 <= m) {
-          vec4 a = patchPoints[at + 1];
-          a.xyz -= a.w * centre;
-          if (i + 2 <= m) {
-            vec4 b = patchPoints[at + 2];
-            b.xyz -= b.w * centre;
-            uu = max(uu, size4(b - 2.0 * a + p, reach));
-          }
-          if (j + 1 <= n) {
-            vec4 c = patchPoints[at + m + 1], d = patchPoints[at + m + 2];
-            c.xyz -= c.w * centre;
-            d.xyz -= d.w * centre;
-            uv = max(uv, size4(d - a - c + p, reach));
-          }
-        }
-        if (j + 2 <= n) {
-          vec4 a = patchPoints[at + m + 1], b = patchPoints[at + 2 * (m + 1)];
-          a.xyz -= a.w * centre;
+// Bounds of Zheng and Sederberg 2000 with the origin in the middle; as derivativeBounds() of factors.h.
+vec3 rectangleBounds(int first, uint shape, vec3 centre, float eps) {
+  const int m = degreeU(shape), n = degreeV(shape), count = pointCount(shape);
+  float reach = 0.0;
+  for (int i = 0; i < count; ++i) reach = max(reach, length(projected(patchPoints[first + i]) - centre));
+  reach = max(reach - eps, 0.0);
+  float uu = 0.0, uv = 0.0, vv = 0.0;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= m; ++i) {
+      const int at = first + i + (m + 1) * j;
+      vec4 p = patchPoints[at];
+      p.xyz -= p.w * centre;
+      if (i + 1 <= m) {
+        vec4 a = patchPoints[at + 1];
+        a.xyz -= a.w * centre;
+        if (i + 2 <= m) {
+          vec4 b = patchPoints[at + 2];
           b.xyz -= b.w * centre;
-          vv = max(vv, size4(b - 2.0 * a + p, reach));
+          uu = max(uu, size4(b - 2.0 * a + p, reach));
+        }
+        if (j + 1 <= n) {
+          vec4 c = patchPoints[at + m + 1], d = patchPoints[at + m + 2];
+          c.xyz -= c.w * centre;
+          d.xyz -= d.w * centre;
+          uv = max(uv, size4(d - a - c + p, reach));
         }
       }
-    uu *= float(m * (m - 1));
-    vv *= float(n * (n - 1));
-    uv *= float(m * n);
-    const vec2 segments = segmentsFor(uu, uv, vv, 8.0 * eps * weight, RULE);
-    const int mu = whole(segments.x), mv = whole(segments.y);
-    ownFactors[number] = packedFactors(ivec4(mu, mv, mu, mv));
-    return;
+      if (j + 2 <= n) {
+        vec4 a = patchPoints[at + m + 1], b = patchPoints[at + 2 * (m + 1)];
+        a.xyz -= a.w * centre;
+        b.xyz -= b.w * centre;
+        vv = max(vv, size4(b - 2.0 * a + p, reach));
+      }
+    }
+  return vec3(float(m * (m - 1)) * uu, float(m * n) * uv, float(n * (n - 1)) * vv);
+}
+
+#ifdef PN_CONSTANT
+float tangentDistance(vec3 p, vec3 a, vec3 b) {
+  const vec3 along = b - a, away = p - a;
+  const float length2 = dot(along, along);
+  return length(length2 > 0.0 ? away - along * (dot(away, along) / length2) : away);
+}
+#endif
+
+// As triangleSegments() and largestTangentDistance() of factors.h. Of a rational one no bound is known.
+vec3 triangleBounds(int first, int n) {
+#ifdef PN_CONSTANT
+  if (n == 3) {
+    vec3 b[10];
+    for (int i = 0; i < 10; ++i) b[i] = projected(patchPoints[first + i]);
+    // b300, 210, 201, 120, 111, 102, 030, 021, 012, 003
+    const float edge0 = max(tangentDistance(b[1], b[0], b[6]), tangentDistance(b[3], b[0], b[6])),
+                edge1 = max(tangentDistance(b[7], b[6], b[9]), tangentDistance(b[8], b[6], b[9])),
+                edge2 = max(tangentDistance(b[2], b[0], b[9]), tangentDistance(b[5], b[0], b[9]));
+    return vec3(max(edge0, max(edge1, edge2)));
   }
-  // Schwarz 2009, section 7.4.3; as triangleSegments() of factors.h. Of a rational one no bound is known.
-  const int n = degreeU(shape);
+#endif
   float own0 = 0.0, own1 = 0.0, own2 = 0.0, d13 = 0.0, d21 = 0.0, d32 = 0.0;
-  float heaviest = 0.0;
-  for (int i = 0; i < count; ++i) heaviest = max(heaviest, patchPoints[first + i].w);
   for (int i = 0; i <= n - 2; ++i)
     for (int k = 0; i + k <= n - 2; ++k) {
       const vec3 a = projected(patchPoints[first + trianglePlace(n, i + 2, k)]),
@@ -129,7 +126,93 @@ void main() {
       d21 = max(d21, length(ca - bc - ab + b));
       d32 = max(d32, length(ab - ca - bc + c));
     }
-  const vec3 bounds = float(n * (n - 1)) * vec3(own0 + max(d13, d21), own1 + max(d21, d32), own2 + max(d13, d32));
-  const vec3 segments = heaviest > weight ? vec3(float(mostSegments)) : sqrt(bounds / (4.0 * eps));
-  ownFactors[number] = packedFactors(ivec4(whole(segments.x), whole(segments.y), whole(segments.z), 0));
+  return float(n * (n - 1)) * vec3(own0 + max(d13, d21), own1 + max(d21, d32), own2 + max(d13, d32));
+}
+
+float heaviest(int first, int count) {
+  float out_ = 0.0;
+  for (int i = 0; i < count; ++i) out_ = max(out_, patchPoints[first + i].w);
+  return out_;
+}
+
+vec3 secondBounds(int first, uint shape, PatchBounds box, float eps) {
+  if (isRectangle(shape)) return rectangleBounds(first, shape, 0.5 * (box.low + box.high), eps);
+  // So large that any tolerance takes all segments.
+  if (heaviest(first, pointCount(shape)) > box.weight) return vec3(3e38);
+  return triangleBounds(first, degreeU(shape));
+}
+
+ivec4 triangleUnits(vec3 second, float eps, int degree) {
+#ifdef PN_CONSTANT
+  if (degree == 3) return ivec4(units(second.x <= eps ? 1.0 : sqrt(PN_CONSTANT * second.x / eps)));
+#endif
+  const vec3 segments = sqrt(second / (4.0 * eps));
+  return ivec4(units(segments.x), units(segments.y), units(segments.z), 0);
+}
+
+// What the view shows of a patch.
+struct Seen {
+  float least, offAxis;  // least depth; largest squared tangent of the angle to the axis
+  bool left, right, above, below, behind;
+};
+
+void see(inout Seen seen, vec3 point) {
+  const vec3 p = (anchorToCamera * vec4(point, 1.0)).xyz;
+  const float depth = -p.z, near_ = max(depth, nearest);
+  seen.least = min(seen.least, depth);
+  seen.left = seen.left && p.x < -rayScale.x * depth;
+  seen.right = seen.right && p.x > rayScale.x * depth;
+  seen.below = seen.below && p.y < -rayScale.y * depth;
+  seen.above = seen.above && p.y > rayScale.y * depth;
+  seen.behind = seen.behind && depth < nearest;
+  seen.offAxis = max(seen.offAxis, dot(p.xy, p.xy) / (near_ * near_));
+}
+
+void main() {
+  const uint number = gl_GlobalInvocationID.x;
+  if (number >= patchCount) return;
+  const TessellatedPatch patch_ = patches[number];
+  const uint shape = shapeOf(patch_);
+  const int count = pointCount(shape), first = int(patch_.firstPoint);
+#ifdef MAKE_BOUNDS
+  PatchBounds made = boxOf(first, count);
+  if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
+  bounds[number] = made;
+#else
+  Seen seen = Seen(3e38, 0.0, true, true, true, true, true);
+#ifdef BOUNDS_MADE
+  const PatchBounds box = bounds[number];
+  for (int i = 0; i < 8; ++i) see(seen, mix(box.low, box.high, vec3(i & 1, i >> 1 & 1, i >> 2)));
+#else
+  const PatchBounds box = boxOf(first, count);
+  for (int i = 0; i < count; ++i) see(seen, projected(patchPoints[first + i]));
+#endif
+  // Only a patch with positive weights lies within the hull of its control points.
+  if (cull != 0 && box.finite != 0u && (seen.left || seen.right || seen.below || seen.above || seen.behind)) {
+    ownFactors[number] = uvec2(0u);
+    return;
+  }
+  if (uniformSegments > 0) {
+    ownFactors[number] = packedUnits(ivec4(uniformSegments * kSegmentUnit));
+    return;
+  }
+  float eps = tolerance * max(seen.least, nearest);
+  if (strict != 0) eps /= sqrt(1.0 + min(seen.offAxis, dot(rayScale, rayScale)));
+  if (box.finite == 0u) {
+    ownFactors[number] = packedUnits(ivec4(mostSegments * kSegmentUnit));
+    return;
+  }
+#ifdef BOUNDS_MADE
+  const vec3 second = box.second;
+#else
+  const vec3 second = secondBounds(first, shape, box, eps);
+#endif
+  if (isRectangle(shape)) {
+    const vec2 segments =
+        segmentsWithin(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE, float(mostSegments));
+    ownFactors[number] = packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
+  } else {
+    ownFactors[number] = packedUnits(triangleUnits(second, eps, degreeU(shape)));
+  }
+#endif
 }

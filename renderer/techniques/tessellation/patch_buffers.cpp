@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/tessellation/patch_buffers.h"
 
+#include <algorithm>
+
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 namespace limen::techniques {
@@ -22,7 +24,8 @@ std::vector<TessellatedPatch> recordsOf(const scene::Scene& scene) {
     if (i < set.neighbours.size())
       for (int side = 0; side < surfaces::sidesOf(patch.domain); ++side) {
         const surfaces::Neighbour& neighbour = set.neighbours[i][static_cast<size_t>(side)];
-        if (neighbour.patch >= 0) record.neighbours[side] = 4 * neighbour.patch + neighbour.side;
+        if (neighbour.patch >= 0)
+          record.neighbours[side] = 8 * neighbour.patch + 2 * neighbour.side + (neighbour.reversed ? 1 : 0);
       }
     out.push_back(record);
   }
@@ -44,9 +47,13 @@ std::vector<glm::vec4> normalsOf(const surfaces::PatchSet& set) {
 }
 
 gl::ShaderDefines definesOf(const surfaces::PatchSet& set) {
-  for (const surfaces::Patch& patch : set.patches)
-    if (shapeOf(patch) != shapeOf(set.patches[0])) return {};
-  return {{"SHAPE", std::to_string(shapeOf(set.patches[0])) + "u"}};
+  gl::ShaderDefines out;
+  const auto isUnweighted = [](const glm::dvec4& point) { return point.w == 1.0; };
+  if (std::all_of(set.points.begin(), set.points.end(), isUnweighted)) out["POLYNOMIAL"] = "1";
+  const auto isAlike = [&](const surfaces::Patch& patch) { return shapeOf(patch) == shapeOf(set.patches[0]); };
+  if (!set.patches.empty() && std::all_of(set.patches.begin(), set.patches.end(), isAlike))
+    out["SHAPE"] = std::to_string(shapeOf(set.patches[0])) + "u";
+  return out;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class PatchBuffers {
   void bindStorage() const;
   uint32_t count() const { return count_; }
   int64_t bytes() const { return patches_.bytes() + points_.bytes() + normals_.bytes(); }
-  /// SHAPE, if all patches have the same.
+  /// SHAPE, if all patches have the same; POLYNOMIAL, if all weights are 1.
   const gl::ShaderDefines& defines() const { return defines_; }
 
  private:

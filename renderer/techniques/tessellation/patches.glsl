@@ -25,9 +25,15 @@ int pointCount(uint shape) {
 // Place of the point (i, j, k), i + j + k = n, among those of a triangle.
 int trianglePlace(int n, int i, int k) { return (n - i) * (n - i + 1) / 2 + k; }
 
-ivec4 unpackedFactors(uint word) {
+ivec4 unpackedSegments(uint word) {
   return ivec4(word & 255u, word >> 8 & 255u, word >> 16 & 255u, word >> 24);
 }
-uint packedFactors(ivec4 factors) {
-  return uint(factors.x) | uint(factors.y) << 8 | uint(factors.z) << 16 | uint(factors.w) << 24;
+uint packedSegments(ivec4 segments) {
+  return uint(segments.x) | uint(segments.y) << 8 | uint(segments.z) << 16 | uint(segments.w) << 24;
+}
+ivec4 unpackedUnits(uvec2 words) {
+  return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
+}
+uvec2 packedUnits(ivec4 units) {
+  return uvec2(uint(units.x) | uint(units.y) << 16, uint(units.z) | uint(units.w) << 16);
 }

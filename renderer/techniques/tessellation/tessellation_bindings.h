@@ -16,10 +16,36 @@ struct TessellatedPatch {  // std430
   uint firstPoint, firstNormal;
   uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the normals
   uint material;
-  ivec4 neighbours;  // of each side: 4 patch + side of the patch along it, or -1
+  ivec4 neighbours;  // of each side: of what lies along it 8 patch + 2 side + (1: it runs the other way); -1:
+                     // none
 };
 #ifdef __cplusplus
 static_assert(sizeof(TessellatedPatch) == 32 && offsetof(TessellatedPatch, neighbours) == 16);
+#endif
+
+// Consistent factors of a patch's sides.
+struct PatchFactors {  // std430
+  uint segments;       // four bytes; all 0: culled
+  uint first,
+      second;  // of sides 0 and 1, 2 and 3: real factors in 1 / kSegmentUnit, before rounding; 16 bits each
+  uint unused;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatchFactors) == 16);
+#endif
+
+// What factors depend on besides the view, made once.
+struct PatchBounds {  // std430
+  vec3 low;           // box of the control points
+  float weight;       // smallest
+  vec3 high;
+  uint finite;  // 1: all weights are positive
+  vec3 second;  // rectangle: of derivatives uu, uv, vv; triangle: of its sides, or the largest tangent
+                // distance
+  float unused;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatchBounds) == 48 && offsetof(PatchBounds, finite) == 28);
 #endif
 
 struct TessellatedVertex {  // std430
@@ -53,17 +79,32 @@ struct TessellationTotals {
 static_assert(sizeof(TessellationTotals) == 64 && offsetof(TessellationTotals, indices) == 32);
 #endif
 
+// DrawElementsIndirectCommand.
+struct PatternCommand {  // std430
+  uint indices, instances, firstIndex, firstVertex, firstInstance;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatternCommand) == 20);
+#endif
+
 const uint kPatchesBuffer = 0u;
 const uint kPatchPointsBuffer = 1u;
 const uint kPatchNormalsBuffer = 2u;
-const uint kOwnFactorsBuffer = 3u;  // of each patch four bytes, one a side; 0: culled
-const uint kFactorsBuffer = 4u;     // the same, consistent
+const uint kOwnFactorsBuffer = 3u;  // of each patch four times 16 bits, in 1 / kSegmentUnit; 0: culled
+const uint kFactorsBuffer = 4u;     // PatchFactors
+const uint kPatchBoundsBuffer = 5u;
 const uint kSlotCountsBuffer = 5u;
 const uint kSlotOffsetsBuffer = 5u;
 const uint kTotalsBuffer = 6u;
 const uint kVerticesBuffer = 7u;
 const uint kTriangleCountBuffer = 7u;
 const uint kIndicesBuffer = 3u;
+
+// Refinement patterns.
+const uint kPatternCountsBuffer = 5u;
+const uint kPatternOffsetsBuffer = 6u;
+const uint kPatternInstancesBuffer = 7u;
+const uint kPatternCommandsBuffer = 7u;
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;

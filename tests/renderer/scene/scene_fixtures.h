@@ -66,15 +66,39 @@ inline const std::string& roundMeshFile() {
   return file;
 }
 
+/// The same sphere and a box beside it: with many triangles and with creases.
+inline const std::string& creasedMeshFile() {
+  static const TemporaryFolder folder;
+  static const std::string file = [] {
+    std::string text;
+    for (const std::string& part : {roundMeshFile(), smallMeshFile()}) {
+      std::ifstream in(part, std::ios::binary);
+      const auto first = std::count(text.begin(), text.end(), 'v');
+      for (std::string word; in >> word;) {
+        if (word == "v" || word == "f")
+          text += '\n' + word;
+        else
+          text += ' ' + (text[text.rfind('\n') + 1] == 'f' ? std::to_string(std::stol(word) + first) : word);
+      }
+    }
+    return folder.write("ball_and_box.obj", text + '\n');
+  }();
+  return file;
+}
+
 /// What the scene cannot do without, and a coarser form of one that is made to be large.
 inline Given needed(const std::string& scene) {
   if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
+  if (scene == "curved/pn_mesh") return {{"file", creasedMeshFile()}};
   if (scene == "boulders") return {{"tessellation", int64_t{4}}};
+  if (scene == "curved/spheres" || scene == "curved/star_field") return {{"tessellation", int64_t{2}}};
+  if (scene == "curved/herd") return {{"animals", int64_t{2}}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 
 inline bool installed(const std::string& scene) {
-  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object") ||
+  return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object" &&
+          scene != "curved/pn_model") ||
          std::filesystem::exists("/usr/share/glmark2/models");
 }
 

@@ -129,6 +129,25 @@ void forEachTuple(int sides, int most, const std::function<void(const Factors&)>
   }
 }
 
+/// A side's slots hold its samples, from its first corner on.
+TEST(Patterns, SlotsOfSidesHoldTheirSamples) {
+  for (const Domain domain : {Domain::Rectangle, Domain::Triangle})
+    for (int code = 0; code < 6 * 6 * 6 * 6; ++code) {
+      const Factors f = {code % 6 + 1, code / 6 % 6 + 1, code / 36 % 6 + 1, code / 216 + 1};
+      if (domain == Domain::Triangle && f[3] > 1) break;
+      const PatternPlan plan = patternOf(domain, f);
+      for (int side = 0; side < sidesOf(domain); ++side) {
+        const int n = f[size_t(side)];
+        const glm::dvec2 a = corner(domain, side), b = corner(domain, (side + 1) % sidesOf(domain));
+        for (int q = 1; q < n; ++q) {
+          const glm::dvec2 at = parametersOf(plan, patternSideSlot(plan, side, q, n));
+          EXPECT_LT(glm::length(at - (a + (b - a) * (double(q) / n))), 1e-12)
+              << code << " side " << side << " sample " << q;
+        }
+      }
+    }
+}
+
 TEST(Patterns, TrianglesOfAllTuplesTo16TileTheDomainAndMatchTheClosedForm) {
   forEachTuple(3, 16, [](const Factors& f) {
     expectSound(Domain::Triangle, f, true);

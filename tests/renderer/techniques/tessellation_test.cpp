@@ -180,6 +180,26 @@ TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
   EXPECT_EQ(made.counter("tessellated_vertices"), 360);
 }
 
+/// 32,000 patches at half a pixel take more than a million vertices.
+TEST_F(Tessellation, BuffersHoldWhatTheFirstViewTakes) {
+  const Rendered made =
+      render(makeScene("curved/spheres"), "tessellation/compute",
+             {{"factors", std::string("deviation")}, {"factors.tolerance_px", 0.25}}, {256, 192}, true);
+  EXPECT_EQ(made.counter("patches_left_out"), 0);
+  EXPECT_GT(made.counter("tessellated_vertices"), 900000);
+}
+
+/// 92,256 patches: the default of 64 segments would be 390 million vertices.
+TEST_F(Tessellation, AReferenceThatNoBufferHoldsIsRefused) {
+  const scene::Scene scene = makeScene("curved/herd");
+  try {
+    render(scene, "tessellation/uniform_fine", {}, {16, 12});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("use at most 25"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Tessellation, BothFormsAndBothScansMakeTheSamePicture) {
   const scene::Scene teapot = makeScene("curved/teapot");
   const Rendered first = render(teapot, "tessellation/compute", {}, {96, 72});
@@ -189,6 +209,219 @@ TEST_F(Tessellation, BothFormsAndBothScansMakeTheSamePicture) {
                                    {{"form", std::string(form)}, {"scan", std::string(scan)}}, {96, 72});
       EXPECT_EQ(meanDifference(first.product, made.product), 0.0) << form << " " << scan;
     }
+}
+
+/// The same triangles as in compute, by stored patterns, whoever builds the batches.
+TEST_F(Tessellation, PatternsShowWhatComputeShows) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"}) {
+    const scene::Scene scene = makeScene(name);
+    for (const char* patterns : {"integer", "dyadic"}) {
+      const bool dyadic = std::string(patterns) == "dyadic";
+      const Rendered compute = render(scene, "tessellation/compute",
+                                      {{"raster", std::string("hardware")},
+                                       {"spacing", std::string(patterns)},
+                                       {"factors.most", int64_t{16}}},
+                                      {96, 72}, true);
+      for (const char* draw : {"immediate", "instanced", "multi_draw"}) {
+        if (!dyadic && std::string(draw) == "multi_draw") continue;
+        const Rendered made = render(
+            scene, "tessellation/patterns",
+            {{"patterns", std::string(patterns)}, {"draw", std::string(draw)}, {"factors.most", int64_t{16}}},
+            {96, 72}, true);
+        EXPECT_LT(meanDifference(compute.product, made.product), 1e-6)
+            << name << " " << patterns << " " << draw;
+        EXPECT_EQ(compute.counter("tessellated_triangles"), made.counter("tessellated_triangles"))
+            << name << " " << patterns << " " << draw;
+        EXPECT_EQ(made.counter("patches_left_out"), 0);
+      }
+    }
+  }
+}
+
+/// Uniform patterns with samples on sides moved: more triangles, some without area, and no gaps.
+TEST_F(Tessellation, AdaptedUniformPatternsShowTheSurface) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  const Rendered fine = render(teapot, "tessellation/uniform_fine", {}, {128, 96});
+  const Rendered exact =
+      render(teapot, "tessellation/patterns", {{"patterns", std::string("integer")}}, {128, 96}, true);
+  for (const char* patterns : {"adapted", "adapted_integer"})
+    for (const char* draw : {"immediate", "instanced", "multi_draw"}) {
+      if (std::string(patterns) == "adapted_integer" && std::string(draw) == "multi_draw") continue;
+      const Rendered made =
+          render(teapot, "tessellation/patterns",
+                 {{"patterns", std::string(patterns)}, {"draw", std::string(draw)}}, {128, 96}, true);
+      EXPECT_LT(meanDifference(fine.product, made.product), 3e-3) << patterns << " " << draw;
+      EXPECT_GT(made.counter("tessellated_triangles"), exact.counter("tessellated_triangles")) << patterns;
+    }
+}
+
+/// On a closed surface strips close every gap: no pixel far from the fine surface's colour is left.
+TEST_F(Tessellation, StripsCloseTheGapsBetweenLevels) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const Image fine =
+      render(torus, "tessellation/uniform_fine", {{"segments", int64_t{16}}}, {320, 240}).product;
+  const auto wrongPixels = [&](const Image& image) {
+    int wrong = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+      for (int x = 1; x + 1 < image.width; ++x) {
+        // Nearest of the pixels around: silhouettes may move by one.
+        double nearest = 1e9;
+        for (int b = y - 1; b <= y + 1; ++b)
+          for (int a = x - 1; a <= x + 1; ++a) {
+            double difference = 0.0;
+            for (int c = 0; c < 3; ++c) difference += std::abs(double(image.at(x, y, c)) - fine.at(a, b, c));
+            nearest = std::min(nearest, difference);
+          }
+        wrong += nearest > 0.1;
+      }
+    return wrong;
+  };
+  // A tolerance of 4 px makes gaps wide enough to be seen. Silhouettes of so coarse a surface lie elsewhere
+  // too: no more than those of one that has no gaps in the first place.
+  const Given coarse = {{"factors", std::string("deviation")}, {"factors.tolerance_px", 4.0}};
+  Given whole = coarse;
+  whole.emplace("spacing", std::string("dyadic"));
+  const int elsewhere = wrongPixels(render(torus, "tessellation/compute", whole, {320, 240}).product);
+  for (const bool batched : {true, false}) {
+    Given given = coarse;
+    given.emplace("batched", batched);
+    const Rendered closed = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    given.emplace("strips", false);
+    const Rendered gaps = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    EXPECT_GT(closed.counter("sides_stitched"), 20);
+    EXPECT_GT(closed.counter("strip_triangles"), 2 * closed.counter("sides_stitched"));
+    EXPECT_EQ(gaps.counter("strip_triangles"), 0);
+    EXPECT_GT(wrongPixels(gaps.product), wrongPixels(closed.product));
+    EXPECT_LE(wrongPixels(closed.product), elsewhere);
+  }
+}
+
+/// The surface that a technique makes in one frame.
+class TessellatedSurfaces : public Tessellation {
+ protected:
+  std::shared_ptr<const surfaces::TessellatedSurface> made(const scene::Scene& scene, const Given& given,
+                                                           const std::string& name = "tessellation/compute") {
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {160, 120});
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
+    const auto technique = info.make(ParameterValues(info.parameters, given));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    return technique->tessellation(frame);
+  }
+  /// From the surface at the same parameters.
+  static double largestError(const scene::Scene& scene, const surfaces::TessellatedSurface& surface) {
+    double most = 0.0;
+    for (size_t i = 0; i < surface.positions.size(); ++i) {
+      const surfaces::Patch& patch = scene.surfaces.patches[surface.patches[i]];
+      const glm::dvec3 exact =
+          surfaces::evaluate(scene.surfaces, patch, surface.parameters[i], surfaces::Order::Position).p;
+      most = std::max(most, glm::length(surface.anchor + glm::dvec3(surface.positions[i]) - exact));
+    }
+    return most;
+  }
+  static void expectNoCracks(const scene::Scene& scene, const surfaces::TessellatedSurface& surface,
+                             const std::string& what) {
+    const surfaces::Cracks cracks = surfaces::cracksOf(scene.surfaces, surface);
+    EXPECT_GT(cracks.sides, 20) << what;
+    EXPECT_EQ(cracks.unequalVertices, 0) << what;
+    EXPECT_EQ(cracks.loneVertices, 0) << what;
+    EXPECT_EQ(cracks.openEdges, 0) << what;
+    EXPECT_EQ(cracks.foldOvers, 0) << what;
+  }
+  static Given text(std::initializer_list<std::pair<std::string, std::string>> values) {
+    Given out;
+    for (const auto& [name, value] : values) out.emplace(name, value);
+    return out;
+  }
+};
+
+/// All ways to evaluate, against double precision (1e-5 of the extent, 1 and 4) and without cracks.
+TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
+  const std::array<scene::Scene, 2> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string form : {"patch_parallel", "four_threads"})
+      for (const std::string evaluation : {"direct", "forward_differences"})
+        for (const std::string sides : {"evaluated", "copied"}) {
+          const auto surface =
+              made(scene, text({{"form", form}, {"evaluation", evaluation}, {"sides", sides}}));
+          const std::string what = form + " " + evaluation + " " + sides;
+          ASSERT_GT(surface->positions.size(), 1000U) << what;
+          EXPECT_LT(largestError(scene, *surface), 1e-5) << what;
+          EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).p99, 0.1) << what;
+          expectNoCracks(scene, *surface, what);
+        }
+}
+
+TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const auto one = made(scene, {}), four = made(scene, text({{"form", "four_threads"}}));
+  ASSERT_EQ(one->positions.size(), four->positions.size());
+  EXPECT_EQ(std::memcmp(one->positions.data(), four->positions.data(), one->positions.size() * 12), 0);
+}
+
+/// Spacings of real factors, with sides that run in all combinations of directions.
+TEST_F(TessellatedSurfaces, AllSpacingsAreWithoutCracks) {
+  const scene::Scene scene = makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}});
+  for (const std::string spacing : {"dyadic", "fractional_even", "fractional_odd", "moreton", "geomorph"}) {
+    const auto surface = made(scene, text({{"spacing", spacing}}));
+    ASSERT_GT(surface->positions.size(), 1000U) << spacing;
+    expectNoCracks(scene, *surface, spacing);
+    if (spacing != "geomorph") {
+      EXPECT_LT(largestError(scene, *surface), 1e-6 * 2.0) << spacing;
+    }
+  }
+}
+
+/// Segments no longer than 1 / factor, or levels mixed as morphShare() does, keep the tolerance.
+TEST_F(TessellatedSurfaces, SpacingsWithoutLongerSegmentsKeepTheTolerance) {
+  const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
+  for (const std::string spacing : {"integer", "dyadic", "moreton", "geomorph"}) {
+    const auto surface = made(scene, text({{"spacing", spacing}}));
+    EXPECT_LT(surfaces::deviationOf(scene.surfaces, *surface).atParametersPx.most, 0.5) << spacing;
+  }
+}
+
+TEST_F(TessellatedSurfaces, BoundsMadeOnceKeepTheToleranceToo) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const auto every = made(scene, {}), once = made(scene, {{"precompute", true}});
+  EXPECT_LT(surfaces::deviationOf(scene.surfaces, *once).atParametersPx.most, 0.5);
+  // A box is nearer to the eye than its points: more segments, if few.
+  EXPECT_GE(once->positions.size(), every->positions.size());
+  EXPECT_LT(double(once->positions.size()), 1.3 * double(every->positions.size()));
+}
+
+/// PN triangles: bounds hold, the estimate of 9/4 asks for fewer.
+TEST_F(TessellatedSurfaces, PnTrianglesKeepTheTolerance) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  size_t most = 0, estimated = 0;
+  for (const std::string rule : {"sides", "pn_estimate", "pn_tied", "pn_safe"})
+    for (const bool precompute : {false, true}) {
+      Given given = text({{"factors", "deviation"}, {"factors.triangle_rule", rule}});
+      given.emplace("precompute", precompute);
+      given.emplace("factors.tolerance_px", 0.25);
+      const auto surface = made(scene, given);
+      ASSERT_GT(surface->positions.size(), 1000U) << rule;
+      EXPECT_LT(largestError(scene, *surface), 1e-5) << rule;
+      expectNoCracks(scene, *surface, rule);
+      if (rule == "pn_estimate") {
+        estimated = surface->positions.size();
+      } else {
+        EXPECT_LT(surfaces::deviationOf(scene.surfaces, *surface).atParametersPx.most, 0.25) << rule;
+        most = std::max(most, surface->positions.size());
+      }
+    }
+  EXPECT_LT(estimated, most);
+}
+
+TEST_F(TessellatedSurfaces, GeomorphedTrianglesAreWithoutCracks) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const auto surface = made(scene, text({{"spacing", "geomorph"}}));
+  expectNoCracks(scene, *surface, "geomorph");
+  EXPECT_LT(surfaces::deviationOf(scene.surfaces, *surface).atParametersPx.most, 0.5);
 }
 
 }  // namespace

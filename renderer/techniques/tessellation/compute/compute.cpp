@@ -6,10 +6,13 @@
 // not fit
 //   are left out and counted.
 // - `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in the offsets; with
-//   `patch_parallel` a work group, not four threads, shares a patch.
+//   `patch_parallel` a work group shares a patch; `four_threads` is the thesis's form.
+// - Geomorphing evaluates the coarser level's vertices again in place of a pass over the buffers.
 // - Positions along sides are bitwise the same for both patches by the order of the sums (evaluate.glsl).
 // - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
 #include <epoxy/gl.h>
+
+#include <cmath>
 
 #include "renderer/compute/prefix_sum.h"
 #include "renderer/frame/frame_bindings.h"
@@ -23,38 +26,87 @@
 namespace limen::techniques {
 namespace {
 
-enum class SlotForm { VertexParallel, PatchParallel };
-constexpr EnumNames<SlotForm, 2> enumNames(SlotForm) {
-  return {{{{SlotForm::PatchParallel, "patch_parallel"}, {SlotForm::VertexParallel, "vertex_parallel"}}}};
+enum class SlotForm { VertexParallel, PatchParallel, FourThreads };
+constexpr EnumNames<SlotForm, 3> enumNames(SlotForm) {
+  return {{{{SlotForm::FourThreads, "four_threads"},
+            {SlotForm::PatchParallel, "patch_parallel"},
+            {SlotForm::VertexParallel, "vertex_parallel"}}}};
 }
+
+struct EvaluateDirectly {
+  static constexpr const char *kKind = "direct", *kSummary = "each sample for itself";
+};
+/// SC-72.
+struct EvaluateByDifferences {
+  static constexpr const char *kKind = "forward_differences",
+                              *kSummary = "rows of samples by forward differences, of bicubic patches";
+  int restart = 64;
+  static const SettingsTable<EvaluateByDifferences>& table() {
+    static const SettingsTable<EvaluateByDifferences> kTable = {
+        {&EvaluateByDifferences::restart,
+         "restart",
+         {2, 64},
+         "samples",
+         "Samples after which a run starts anew; with patch_parallel, each run is an invocation's"}};
+    return kTable;
+  }
+};
+
+/// Who makes the vertices of a side that two patches have in common (SC-74).
+enum class SharedSides { Evaluated, Copied };
+constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
+  return {{{{SharedSides::Copied, "copied"}, {SharedSides::Evaluated, "evaluated"}}}};
+}
+
+constexpr int64_t kIndicesPerVertex = 6;
+constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
 
 struct ComputeTessellationSettings {
   FactorSettings tessellation;
   SlotForm form = SlotForm::VertexParallel;
+  Spacing spacing = Spacing::Integer;
+  std::variant<EvaluateDirectly, EvaluateByDifferences> evaluation;
+  SharedSides sides = SharedSides::Evaluated;
   compute::ScanForm scan = compute::ScanForm::Auto;
   frame::Raster raster = frame::Raster::Auto;
-  int64_t capacity = 1 << 20;
+  int64_t capacity = 0;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
     using S = ComputeTessellationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::tessellation),
-        {&S::form, "form", "What an invocation or group makes: one vertex, or one patch",
+        {&S::form, "form",
+         "What makes vertices: an invocation each, a group a patch, or four invocations a patch",
+         "Schwarz 2009, section 7.6.1"},
+        {&S::spacing, "spacing", "How a side is divided whose factor is no whole number",
+         "Schwarz 2009, section 7.3.3"},
+        {&S::evaluation, "evaluation", "How samples of a patch are evaluated", "Schwarz 2009, section 7.6.2"},
+        {&S::sides, "sides",
+         "Vertices on common sides: evaluated by both patches, in an order that gives the same bits, or "
+         "copied from one",
          "Schwarz 2009, section 7.6.1"},
         {&S::scan, "scan", "How offsets are summed"},
         {&S::raster, "raster",
          "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
-         {4, 1 << 26},
+         {0, kMostVertices},
          "vertices",
-         "Vertices that the buffers hold; indices: six times as many"},
+         "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
+         "Patches that do not fit are left out and counted"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
+  bool byDifferences() const { return std::holds_alternative<EvaluateByDifferences>(evaluation); }
+  void check() const {
+    if (form == SlotForm::VertexParallel && byDifferences())
+      throw Error("forward differences need invocations that go along rows", "evaluation",
+                  "use form: patch_parallel or four_threads");
+    if (spacing > Spacing::Dyadic && (form == SlotForm::FourThreads || byDifferences()))
+      throw Error("this form of evaluation takes equal steps", "spacing",
+                  "use spacing: integer or dyadic, or another form and direct evaluation");
+  }
 };
-
-constexpr int64_t kIndicesPerVertex = 6;
 
 class ComputeTessellation : public Technique {
  public:
@@ -67,25 +119,35 @@ class ComputeTessellation : public Technique {
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
+    requireRectangles(frame.scene());
     lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
-    factors_.emplace(frame, *patches_, settings_.tessellation, lists_);
+    factors_.emplace(frame, *patches_, settings_.tessellation, lists_, settings_.spacing);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
     picture_.emplace(frame, settings_.shading, "tessellation",
                      lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     gl::ShaderDefines defines = patches_->defines();
-    if (settings_.form == SlotForm::PatchParallel) defines["PATCH_PARALLEL"] = "1";
+    if (settings_.form == SlotForm::VertexParallel) defines["VERTEX_PARALLEL"] = "1";
     if (lists_) defines["LISTS"] = "1";
+    defines["SPACING"] = std::to_string(static_cast<int>(settings_.spacing));
+    if (settings_.byDifferences())
+      defines["RESTART"] = std::to_string(std::get<EvaluateByDifferences>(settings_.evaluation).restart);
+    if (settings_.sides == SharedSides::Copied) defines["COPIED"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
     totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
-    verticesProgram_ = &programs.compute(folder + "vertices.comp.glsl", defines);
+    const bool fourThreads = settings_.form == SlotForm::FourThreads;
+    verticesProgram_ =
+        &programs.compute(folder + (fourThreads ? "four_lanes.comp.glsl" : "vertices.comp.glsl"), defines);
+    if (settings_.sides == SharedSides::Copied)
+      copyProgram_ = &programs.compute(folder + "copy_sides.comp.glsl", defines);
     indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
     drawProgram_ =
         &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
-    vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
-    indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
+    capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
+    vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
+    indices_.emplace(capacity_ * kIndicesPerVertex * 4, nullptr);
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
@@ -103,8 +165,8 @@ class ComputeTessellation : public Technique {
       count_->bindStorage(kTriangleCountBuffer);
       totalsProgram_->use();
       totalsProgram_->set("patchCount", patches_->count());
-      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
-      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
+      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -113,8 +175,12 @@ class ComputeTessellation : public Technique {
     factors_->factors().bindStorage(kFactorsBuffer);
     vertices_->bindStorage(kVerticesBuffer);
     indices_->bindStorage(kIndicesBuffer);
-    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
-    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    // Four invocations a patch are 16 patches a group.
+    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX),
+         settings_.form == SlotForm::FourThreads ? 4U : uint32_t(kTessellationGroup));
+    if (copyProgram_) copySides(frame);
+    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX),
+         uint32_t(kTessellationGroup));
     if (lists_) {
       picture_->renderListed(frame, {*vertices_, *indices_, *count_});
       return;
@@ -137,7 +203,7 @@ class ComputeTessellation : public Technique {
 
   std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
-    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     auto out = std::make_shared<surfaces::TessellatedSurface>();
     out->anchor = frame.gpuScene().anchor();
     out->view = viewOf(frame);
@@ -149,12 +215,16 @@ class ComputeTessellation : public Technique {
     const std::vector<surfaces::Patch>& patches = frame.scene().surfaces.patches;
     for (uint32_t i = 0; i < patches.size(); ++i) {
       surfaces::Factors& own = out->factors.emplace_back();
-      if (i >= totals.patches || factors[i] == 0) continue;
-      for (uint32_t side = 0; side < 4; ++side) own[side] = static_cast<int>(factors[i] >> 8 * side & 255U);
+      if (i >= totals.patches || factors[i].segments == 0) continue;
+      for (uint32_t side = 0; side < 4; ++side)
+        own[side] = static_cast<int>(factors[i].segments >> 8 * side & 255U);
+      const surfaces::ivec4 units(factors[i].first & 65535U, factors[i].first >> 16,
+                                  factors[i].second & 65535U, factors[i].second >> 16);
       const surfaces::PatternPlan plan =
           surfaces::patternOf(patches[i].domain, own, settings_.tessellation.cornerFix);
       for (int slot = 0; slot < plan.vertices; ++slot) {
-        out->parameters.push_back(surfaces::domainPointOf(plan, slot));
+        out->parameters.push_back(
+            surfaces::spacedPointOf(plan, slot, static_cast<int>(settings_.spacing), units));
         out->patches.push_back(i);
       }
     }
@@ -163,10 +233,10 @@ class ComputeTessellation : public Technique {
 
   std::vector<Counter> count(frame::Frame&) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
-    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
+    const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
     double culled = 0.0, rungs[kRungs] = {};
-    for (const uint32_t packed : factors) culled += packed == 0;
+    for (const PatchFactors& of : factors) culled += of.segments == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
     return {
         {"patches_culled", culled},
@@ -221,19 +291,52 @@ class ComputeTessellation : public Technique {
     glVertexArrayElementBuffer(vertexArray_, indices_->id());
   }
 
-  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
+  /// Waits for the GPU.
+  int64_t capacityFor(frame::Frame& frame) {
+    factors_->run(frame);
+    scan_->run(factors_->counts(), *offsets_, patches_->count());
+    const auto needed = offsets_->read<glm::uvec2>(int64_t{patches_->count()} * sizeof(glm::uvec2), 1)[0];
+    const int64_t slots = int64_t{needed.y} * (lists_ ? 3 : 1);
+    const int64_t vertices = std::max<int64_t>(needed.x, (slots + kIndicesPerVertex - 1) / kIndicesPerVertex);
+    return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
+  }
+
+  /// `perPatch`: invocations that a patch takes, unless each slot has one.
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups,
+            uint32_t perPatch) {
     const auto scope = frame.passes().open(pass);
     program.use();
     program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    if (settings_.form == SlotForm::PatchParallel) {
-      const uint32_t rows = (patches_->count() + 65534) / 65535;
-      glDispatchCompute((patches_->count() + rows - 1) / rows, rows, 1);
-    } else {
+    if (settings_.form == SlotForm::VertexParallel) {
       glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
       glDispatchComputeIndirect(static_cast<GLintptr>(groups));
       glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    } else {
+      dispatchPatches(perPatch);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void copySides(frame::Frame& frame) {
+    const auto scope = frame.passes().open("tessellation/sides");
+    copyProgram_->use();
+    copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
+    dispatchPatches(4);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void dispatchPatches(uint32_t perPatch) const {
+    const uint32_t groups =
+        (patches_->count() * perPatch + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+    const uint32_t rows = (groups + 65534) / 65535;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  }
+
+  void requireRectangles(const scene::Scene& scene) const {
+    if (!isFractional(settings_.spacing)) return;
+    for (const surfaces::Patch& patch : scene.surfaces.patches)
+      if (patch.domain == surfaces::Domain::Triangle)
+        throw Error("fractional spacing is for rectangular patches", "spacing", "use spacing: geomorph");
   }
 
   Settings settings_;
@@ -242,9 +345,10 @@ class ComputeTessellation : public Technique {
   std::optional<compute::PrefixSum> scan_;
   std::optional<SurfacePicture> picture_;
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
-                    *drawProgram_ = nullptr;
+                    *drawProgram_ = nullptr, *copyProgram_ = nullptr;
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
-  bool lists_ = false;  // indices of single triangles, for ComputeRaster; otherwise strips
+  bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
+  int64_t capacity_ = 0;  // vertices
   uint32_t vertexArray_ = 0;
 };
 
@@ -272,6 +376,13 @@ class UniformFine : public Technique {
     const int64_t side = settings_.segments + 1,
                   patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
     all.capacity = std::max<int64_t>(patches * side * side, 4);
+    if (all.capacity > kMostVertices)
+      throw Error(
+          std::to_string(patches) + " patches with " + std::to_string(settings_.segments) + " segments are " +
+              std::to_string(all.capacity) + " vertices, more than the " + std::to_string(kMostVertices) +
+              " that buffers take",
+          "segments",
+          "use at most " + std::to_string(int(std::sqrt(double(kMostVertices) / double(patches))) - 1));
     all.shading = settings_.shading;
     fine_.emplace(all);
     fine_->prepare(frame);

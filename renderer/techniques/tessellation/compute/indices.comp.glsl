@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phase 5: indices of triangle strips, or of single triangles (LISTS: a slot is then a triangle). A group for each patch
-// (PATCH_PARALLEL) or an invocation for each slot. See compute.cpp.
+// or an invocation for each slot (VERTEX_PARALLEL). See compute.cpp.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
 layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
@@ -27,7 +27,7 @@ void writeSlot(PatternPlan plan, uint slot, uvec2 first) {
 
 void main() {
   const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-#ifdef PATCH_PARALLEL
+#ifndef VERTEX_PARALLEL
   if (group >= totals.patches) return;
   const uvec2 first = slotOffsets[group];
   const uint count = slotOffsets[group + 1u].y - first.y;

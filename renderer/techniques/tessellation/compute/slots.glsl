@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which patch a slot belongs to, and the pattern of a patch.
-#include "renderer/surfaces/pattern_slots.h"
 #include "renderer/techniques/tessellation/evaluate.glsl"
 
 layout(local_size_x = kTessellationGroup) in;
-layout(std430, binding = kFactorsBuffer) readonly buffer Factors { uint factors[]; };
+layout(std430, binding = kFactorsBuffer) readonly buffer Factors { PatchFactors factors[]; };
 layout(std430, binding = kSlotOffsetsBuffer) readonly buffer SlotOffsets { uvec2 slotOffsets[]; };
 layout(std430, binding = kTotalsBuffer) readonly buffer Totals { TessellationTotals totals; };
 
 uniform int cornerFix;
 
 PatternPlan planOf(uint number, uint shape) {
-  const ivec4 mine = unpackedFactors(factors[number]);
+  const ivec4 mine = unpackedSegments(factors[number].segments);
   if (isRectangle(shape)) return rectanglePattern(mine, cornerFix);
   return trianglePattern(mine, cornerFix);
 }
+
+ivec4 unitsOf(uint number) { return unpackedUnits(uvec2(factors[number].first, factors[number].second)); }
 
 // Last of the patches [low, high] whose slots begin at `slot` or before it. `lane`: 0 vertices, 1 indices.
 uint patchAt(uint slot, int lane, uint low, uint high) {
@@ -29,7 +30,7 @@ uint patchAt(uint slot, int lane, uint low, uint high) {
   return low;
 }
 
-#ifndef PATCH_PARALLEL
+#ifdef VERTEX_PARALLEL
 shared uint groupPatches[2];
 
 // Of this invocation's slot; the group's first and last slot bound the search. Called by the whole group.

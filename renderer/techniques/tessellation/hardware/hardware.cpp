@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curved surfaces by the tessellation stages of the driver (SC-68), with the factors of tessellation/compute. The
-// thesis notes that these stages have no place to make factors agree between patches: a compute pass before does.
-// Integer factors in all spacings: fractional ones move vertices as they do with real factors, but do not fade.
+// Curved surfaces by the tessellation stages of the driver (SC-68), with the factors of tessellation/compute.
+// The thesis notes that these stages have no place to make factors agree between patches: a compute pass
+// before does. Fractional spacings get the real factors, so that vertices move as the view does.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -15,16 +15,17 @@
 namespace limen::techniques {
 namespace {
 
-enum class Spacing { Equal, FractionalEven, FractionalOdd };
-constexpr EnumNames<Spacing, 3> enumNames(Spacing) {
-  return {{{{Spacing::Equal, "equal"},
-            {Spacing::FractionalEven, "fractional_even"},
-            {Spacing::FractionalOdd, "fractional_odd"}}}};
+/// Of the tessellator.
+enum class DriverSpacing { Equal, FractionalEven, FractionalOdd };
+constexpr EnumNames<DriverSpacing, 3> enumNames(DriverSpacing) {
+  return {{{{DriverSpacing::Equal, "equal"},
+            {DriverSpacing::FractionalEven, "fractional_even"},
+            {DriverSpacing::FractionalOdd, "fractional_odd"}}}};
 }
 
 struct HardwareTessellationSettings {
   FactorSettings tessellation;
-  Spacing spacing = Spacing::Equal;
+  DriverSpacing spacing = DriverSpacing::Equal;
   frame::ShadedSetting shading;
   static const SettingsTable<HardwareTessellationSettings>& table() {
     using S = HardwareTessellationSettings;
@@ -67,7 +68,8 @@ class HardwareTessellation : public Technique {
     glVertexArrayAttribBinding(vertexArray_, 0, 0);
     glEnableVertexArrayAttrib(vertexArray_, 0);
     glVertexArrayVertexBuffer(vertexArray_, 0, numbers_->id(), 0, sizeof(uint32_t));
-    perDraw_ = frame.context().device().software ? std::max(1, kVerticesPerSoftwareDraw / mostVertices()) : 1 << 30;
+    perDraw_ =
+        frame.context().device().software ? std::max(1, kVerticesPerSoftwareDraw / mostVertices()) : 1 << 30;
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
   }
 
@@ -88,8 +90,9 @@ class HardwareTessellation : public Technique {
     });
     glGetQueryObjectuiv(query, GL_QUERY_RESULT, &triangles);
     glDeleteQueries(1, &query);
-    const std::vector<uint32_t> factors = factors_->factors().read<uint32_t>(0, patches_->count());
-    return {{"patches_culled", double(std::count(factors.begin(), factors.end(), 0U))},
+    const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
+    const auto culled = [](const PatchFactors& of) { return of.segments == 0; };
+    return {{"patches_culled", double(std::count_if(factors.begin(), factors.end(), culled))},
             {"tessellated_triangles", double(triangles)}};
   }
 
@@ -102,6 +105,7 @@ class HardwareTessellation : public Technique {
   const gl::Program& programFor(frame::Frame& frame, surfaces::Domain domain) const {
     gl::ShaderDefines defines = patches_->defines();
     defines["SPACING"] = std::string(limen::toText(settings_.spacing)) + "_spacing";
+    if (settings_.spacing != DriverSpacing::Equal) defines["FRACTIONAL"] = "1";
     if (domain == surfaces::Domain::Rectangle) defines["RECTANGLES"] = "1";
     const std::string folder = "renderer/techniques/tessellation/";
     return frame.context().programs().get(
@@ -144,8 +148,9 @@ class HardwareTessellation : public Technique {
 
 const RegisteredTechnique<HardwareTessellation> kHardwareTessellationRegistered{
     {.name = "tessellation/hardware",
-     .version = 1,
-     .summary = "Curved surfaces by the driver's tessellation stages, with factors made to agree in a compute pass",
+     .version = 2,
+     .summary =
+         "Curved surfaces by the driver's tessellation stages, with factors made to agree in a compute pass",
      .source = "Schwarz 2009, section 7.5.5 (SC-68)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},

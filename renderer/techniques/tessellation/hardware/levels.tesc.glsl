@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levels from the consistent factors. See hardware.cpp. RECTANGLES: the domain is a quad.
+#include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
 
 layout(vertices = 1) out;
-layout(std430, binding = kFactorsBuffer) readonly buffer Factors { uint factors[]; };
+layout(std430, binding = kFactorsBuffer) readonly buffer Factors { PatchFactors factors[]; };
 
 in uint number[];
 out uint patchNumber[];
 
 void main() {
   patchNumber[gl_InvocationID] = number[gl_InvocationID];
-  const vec4 f = vec4(unpackedFactors(factors[number[0]]));  // 0 culls the patch
+  // Of a fractional spacing, the tessellator rounds and moves vertices itself. 0 culls the patch.
+  const PatchFactors mine = factors[number[0]];
+#ifdef FRACTIONAL
+  const vec4 f = vec4(unpackedUnits(uvec2(mine.first, mine.second))) / float(kSegmentUnit);
+#else
+  const vec4 f = vec4(unpackedSegments(mine.segments));
+#endif
 #ifdef RECTANGLES
   // Outer levels: of u = 0, v = 0, u = 1, v = 1.
   gl_TessLevelOuter[0] = f.w;

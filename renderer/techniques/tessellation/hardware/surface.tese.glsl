@@ -17,14 +17,12 @@ flat out uint material;
 void main() {
   const TessellatedPatch patch_ = patches[patchNumber[0]];
   // Along a side the tessellator gives both of t and 1 - t or neither, so that the difference is exact.
-  DomainPoint point;
-  point.at = gl_TessCoord.xy;
 #ifdef RECTANGLES
-  point.rest = 1.0 - gl_TessCoord.xy;
+  const vec4 at = vec4(gl_TessCoord.xy, 1.0 - gl_TessCoord.xy);
 #else
-  point.rest = vec2(gl_TessCoord.z, 0.0);
+  const vec4 at = vec4(gl_TessCoord, 0.0);
 #endif
-  const TessellatedVertex vertex = surfaceVertex(patch_, point);
+  const TessellatedVertex vertex = surfaceVertex(patch_, at);
   precise const vec4 clip = anchorToClip * vec4(vertex.position, 1.0);
   gl_Position = clip;
   normal = vertex.normal;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points and patches of subdivision surfaces against repeated subdivision.
+#include <gtest/gtest.h>
+
+#include "renderer/scene/curved/double_torus.h"
+#include "renderer/scene/shapes.h"
+#include "renderer/surfaces/acc_patches.h"
+#include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/catmull_clark.h"
+#include "renderer/surfaces/catmull_clark_point.h"
+#include "renderer/surfaces/neighbours.h"
+
+namespace limen::surfaces {
+namespace {
+
+/// An open bumpy sheet of 5 x 5 quads with a crease of the given sharpness across it.
+PolygonMesh sheet(double sharpness) {
+  scene::Random random(12);
+  PolygonMesh mesh;
+  for (int y = 0; y <= 5; ++y)
+    for (int x = 0; x <= 5; ++x) mesh.points.emplace_back(x, y, random.uniform(-0.6, 0.6));
+  for (uint32_t y = 0; y < 5; ++y)
+    for (uint32_t x = 0; x < 5; ++x)
+      mesh.faces.push_back({x + 6 * y, x + 1 + 6 * y, x + 7 + 6 * y, x + 6 + 6 * y});
+  if (sharpness > 0.0)
+    for (uint32_t y = 0; y < 5; ++y) mesh.sharpness[edgeKey(3 + 6 * y, 3 + 6 * (y + 1))] = sharpness;
+  return mesh;
+}
+
+/// SC-21: at every vertex of the mesh after four steps, its limit position and normal. Vertex numbers of
+/// children are followed through the faces: child i of a face begins at its corner i.
+void expectLimits(const PolygonMesh& mesh) {
+  const int kSteps = 4;
+  const PolygonMesh fine = catmullClark(mesh, kSteps);
+  const LimitPoints limit = catmullClarkLimit(fine);
+  size_t checked = 0;
+  for (uint32_t face = 0; face < mesh.faces.size(); face += 7) {
+    for (uint32_t child = 0; child < 256; child += 5) {
+      // Corner (0, 0) of the child and its first side, in the face's parameters.
+      glm::dvec2 origin(0.0), x(1.0, 0.0), y(0.0, 1.0);
+      for (int level = kSteps - 1; level >= 0; --level) {
+        const uint32_t corner = (child >> (2 * level)) & 3U;
+        const std::array<glm::dvec2, 4> start = {origin, origin + x, origin + x + y, origin + y};
+        const std::array<std::array<glm::dvec2, 2>, 4> sides = {{{x, y}, {y, -x}, {-x, -y}, {-y, x}}};
+        origin = start[corner];
+        x = 0.5 * sides[corner][0], y = 0.5 * sides[corner][1];
+      }
+      const uint32_t fineFace = 256 * face + child;
+      const LimitPoint point = catmullClarkPoint(mesh, face, origin.x, origin.y);
+      EXPECT_LT(glm::length(point.position - limit.points[fine.faces[fineFace][0]]), 1e-9)
+          << face << ' ' << child << " after " << point.steps;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100U);
+}
+
+TEST(CatmullClarkPoint, IsTheLimitOfSubdivision) {
+  expectLimits(scene::doubleTorusCage());
+  expectLimits(sheet(0.0));
+  expectLimits(sheet(kInfinitelySharp));
+  expectLimits(sheet(2.5));
+}
+
+/// Normals where the surface is smooth, at parameters that subdivision does not reach.
+TEST(CatmullClarkPoint, NormalsAreThoseOfDifferences) {
+  const PolygonMesh cage = scene::doubleTorusCage();
+  scene::Random random(4);
+  for (int k = 0; k < 40; ++k) {
+    const auto face = uint32_t(random.uniform(0.0, 47.999));
+    const double u = random.uniform(0.05, 0.95), v = random.uniform(0.05, 0.95), h = 1e-5;
+    const auto at = [&](double du, double dv) {
+      return catmullClarkPoint(cage, face, u + du, v + dv).position;
+    };
+    const glm::dvec3 normal = glm::normalize(glm::cross(at(h, 0) - at(-h, 0), at(0, h) - at(0, -h)));
+    EXPECT_LT(glm::length(normal - catmullClarkPoint(cage, face, u, v).normal), 1e-6);
+  }
+}
+
+/// SC-23: on regular faces the patch is the surface; everywhere its corners are limit points.
+TEST(AccPatches, AreExactOnRegularFaces) {
+  const PolygonMesh mesh = catmullClark(scene::doubleTorusCage());
+  PatchSet set = accPatches(mesh);
+  const LimitPoints limit = catmullClarkLimit(mesh);
+  const MeshTopology topology(mesh);
+  size_t regular = 0;
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::vector<uint32_t>& face = mesh.faces[f];
+    bool isRegular = true;
+    for (size_t c = 0; c < 4; ++c) {
+      const DomainPoint at = sidePoint(Domain::Rectangle, int(c), 0, 1);
+      EXPECT_LT(glm::length(evaluate(set, set.patches[f], at).p - limit.points[face[c]]), 1e-14);
+      isRegular &= topology.rings()[face[c]].faces.size() == 4;
+    }
+    if (!isRegular) continue;
+    ++regular;
+    for (const double u : {0.1, 0.5, 0.8})
+      for (const double v : {0.0, 0.3, 0.9})
+        EXPECT_LT(glm::length(evaluate(set, set.patches[f], rectanglePoint(u, v)).p -
+                              catmullClarkPoint(mesh, f, u, v).position),
+                  1e-13);
+  }
+  EXPECT_GT(regular, 100U);
+  const SideCounts counts = findNeighbours(set);
+  EXPECT_EQ(counts.shared, 4U * mesh.faces.size());
+}
+
+/// Boundaries are the cubic B-splines of the sheet.
+TEST(AccPatches, HaveTheSurfacesBoundary) {
+  const PolygonMesh mesh = sheet(0.0);
+  const PatchSet set = accPatches(mesh);
+  for (uint32_t f = 0; f < 5; ++f)
+    for (const double u : {0.0, 0.25, 0.7, 1.0})
+      EXPECT_LT(glm::length(evaluate(set, set.patches[f], rectanglePoint(u, 0.0)).p -
+                            catmullClarkPoint(mesh, f, u, 0.0).position),
+                1e-9);
+}
+
+}  // namespace
+}  // namespace limen::surfaces
