@@ -292,8 +292,9 @@ class Reader {
                    {"panels", "scene"}};
     if (!node || !reader_.isMap(*node, "'report'", "{x: gpu_ms, y: rmse, series: technique, panels: scene}"))
       return;
-    reader_.checkKeys(*node, "report", {"x", "y", "series", "panels"});
-    std::vector<std::string> groups = variables(), quantities = groups;
+    reader_.checkKeys(*node, "report", {"x", "y", "series", "panels", "fit"});
+    const std::vector<std::string> parameters = variables();
+    std::vector<std::string> groups = parameters, quantities = groups;
     groups.insert(groups.end(), {"technique", "scene", "image"});
     for (const store::QuantityRow& row : commonQuantities()) quantities.push_back(row.name);
     quantities.insert(quantities.end(), out_.metricNames.begin(), out_.metricNames.end());
@@ -302,7 +303,8 @@ class Reader {
     const std::vector<std::string> counters = counterNames(catalogue_, techniques);
     quantities.insert(quantities.end(), counters.begin(), counters.end());
     for (const auto& [key, value] : node->members) {
-      if (!out_.report.contains(key.text)) continue;
+      if (key.text == "fit") readFit(value, parameters);
+      if (!out_.report.contains(key.text) || key.text == "fit") continue;
       const auto word = reader_.values().text(value, key.text);
       if (!word) continue;
       const bool axis = key.text == "x" || key.text == "y";
@@ -312,6 +314,22 @@ class Reader {
                       suggest(*word, known));
       out_.report[key.text] = *word;
     }
+  }
+
+  /// Parameters over whose values the report fits a power law: a name, or a list of those that vary together.
+  void readFit(const YamlNode& node, const std::vector<std::string>& parameters) {
+    if (node.kind == YamlNode::Kind::List && !reader_.isFilledList(node, "'fit'", "[columns, rows]")) return;
+    const std::vector<YamlNode> one = {node};
+    std::vector<std::string> names;
+    for (const YamlNode& item : node.kind == YamlNode::Kind::List ? node.items : one) {
+      const auto name = reader_.values().text(item, "fit");
+      if (!name) continue;
+      if (std::find(parameters.begin(), parameters.end(), *name) == parameters.end())
+        problems_.add(item.mark, fmt::format("'fit' of the report is '{}', which no entry has", *name),
+                      suggest(*name, parameters));
+      names.push_back(*name);
+    }
+    out_.report["fit"] = join(names);
   }
 
   const Catalogue& catalogue_;

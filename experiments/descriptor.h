@@ -83,8 +83,9 @@ struct Descriptor {
   Timing timing;
   Artefacts artefacts;
   std::vector<Configuration> metrics;
-  std::vector<std::string> metricNames;              ///< of the measurements that `metrics` yield, in order
-  nlohmann::json report = nlohmann::json::object();  ///< x, y, series, panels
+  std::vector<std::string> metricNames;  ///< of the measurements that `metrics` yield, in order
+  nlohmann::json report =
+      nlohmann::json::object();  ///< x, y, series, panels; fit: names with commas, if given
   std::vector<ExpectationStatement> expectations;
   std::vector<PublishedTable> published;
   std::map<std::string, std::string>

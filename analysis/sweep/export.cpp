@@ -5,8 +5,10 @@
 #include <map>
 #include <set>
 
+#include "analysis/output/result_renderers.h"
 #include "analysis/output/text_output.h"
 #include "analysis/sweep/grouping.h"
+#include "analysis/sweep/power_law.h"
 #include "analysis/sweep/printed_tables.h"
 #include "experiments/base/text.h"
 
@@ -119,6 +121,9 @@ void exportTables(const Sweep& sweep, const std::string& folder) {
   write(folder, "frame_times.csv", {"key", "device", "frame", "round", "pass", "nanoseconds"}, frameTimes);
   write(folder, "passes.csv", joined(kIdentity, {"pass", "bytes_held", "median_ms", "p95_ms", "n_frames"}),
         passes);
+  if (const std::vector<Scaling> scalings = findScalings(sweep); !scalings.empty())
+    writeFileBytes((std::filesystem::path(folder) / "scalings.csv").string(),
+                   toCsv(tableOf(sweep, scalings)));
   if (const auto published = comparePrinted(sweep); !published.empty())
     writeFileBytes((std::filesystem::path(folder) / "published.csv").string(), printedCsv(published));
 }

@@ -123,7 +123,7 @@ std::string renderTies(const Sweep& sweep, const std::vector<size_t>& ties) {
 std::string renderPage(const Sweep& sweep, const PageCharts& charts, const Pictures& pictures) {
   std::string body = "<main>\n";
   body += renderHead(sweep) + renderNotices(sweep) + renderVerdict(sweep) + renderSpeed(sweep, charts) +
-          renderCounter(sweep, charts) + renderPrinted(comparePrinted(sweep)) +
+          renderCounter(sweep, charts) + renderScalings(sweep) + renderPrinted(comparePrinted(sweep)) +
           renderPictures(sweep, pictures) + renderPasses(sweep) + renderRunTable(sweep) +
           renderRemarks(sweep) + renderExpectations(sweep) + renderProblems(sweep) +
           renderHowToRead(sweep, charts.footUsed) + renderEnvironment(sweep);

@@ -29,6 +29,7 @@ std::string renderVerdictRules(const Sweep& sweep);  ///< items of a list
 std::string renderLegend(const Sweep& sweep);
 std::string renderSpeed(const Sweep& sweep, const PageCharts& charts);
 std::string renderCounter(const Sweep& sweep, const PageCharts& charts);
+std::string renderScalings(const Sweep& sweep);
 std::string renderPasses(const Sweep& sweep);
 std::string renderPictures(const Sweep& sweep, const Pictures& pictures);
 std::string renderRunTable(const Sweep& sweep);

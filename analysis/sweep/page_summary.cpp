@@ -116,9 +116,10 @@ std::string renderSpeed(const Sweep& sweep, const PageCharts& charts) {
 std::string renderCounter(const Sweep& sweep, const PageCharts& charts) {
   if (!sweep.counter) return "";
   std::string out = fmt::format(
-      "<section id=\"counter\"><h2>Error against {}</h2>\n<p>A cost that does not depend on the machine. "
-      "Only runs that count it are drawn; the grey step is the front among them.</p>\n",
-      escapeHtml(sweep.counter->label()));
+      "<section id=\"counter\"><h2>{} against {}</h2>\n<p>A cost that does not depend on the machine. "
+      "Only runs that count it are drawn{}.</p>\n",
+      sweep.noVerdict.empty() ? "Error" : escapeHtml(sweep.y.title), escapeHtml(sweep.counter->label()),
+      sweep.counterHasFront() ? "; the grey step is the front among them" : "");
   out += renderLegend(sweep) + "<div class=\"panels\">\n";
   for (size_t index = 0; index < sweep.panels.size(); ++index) {
     if (charts.counter[index].empty()) continue;

@@ -8,6 +8,7 @@
 #include "analysis/sweep/chart.h"
 #include "analysis/sweep/grouping.h"
 #include "analysis/sweep/page.h"
+#include "analysis/sweep/power_law.h"
 #include "experiments/base/text.h"
 
 namespace limen::analysis {
@@ -128,6 +129,21 @@ std::string renderRunTable(const Sweep& sweep) {
                  "<p>Press a heading to sort by it, again to turn the order." +
                      (folded.empty() ? "" : " <b>The same in all runs:</b> " + folded + ".") + "</p>\n" +
                      toHtml(table, options));
+}
+
+std::string renderScalings(const Sweep& sweep) {
+  const std::vector<Scaling> scalings = findScalings(sweep);
+  if (scalings.empty()) return "";
+  std::vector<std::string> names;
+  for (const std::string& name : fittedOver(sweep)) names.push_back("<code>" + escapeHtml(name) + "</code>");
+  return section(
+      "scalings", "How it grows",
+      "<p>" + escapeHtml(sweep.y.label()) + " = factor × (" + escapeHtml(sweep.x.label()) +
+          ")<sup>exponent</sup>, by least squares of the logarithms over runs that differ in " + join(names) +
+          " alone. The interval is Student’s t with n − 2 degrees of freedom, as if departures from the line "
+          "were chance; where the largest of them is far from 1, the growth is no power law. In full: <a "
+          "href=\"scalings.csv\">scalings.csv</a>.</p>\n" +
+          toHtml(tableOf(sweep, scalings)));
 }
 
 /// How references were made where that was left open, with the runs compared with each.

@@ -85,7 +85,7 @@ std::vector<std::string> drawFigure(const Sweep& sweep, const Axis& xAxis, bool 
     chart.xTitle = xAxis.label();
     chart.yTitle = sweep.y.label();
     chart.yUpsideDown = sweep.y.higherIsBetter();
-    chart.hasFront = isCounter ? sweep.y.direction != Direction::Neither : sweep.noVerdict.empty();
+    chart.hasFront = isCounter ? sweep.counterHasFront() : sweep.noVerdict.empty();
     std::vector<double>&x = xs.emplace_back(), &y = ys.emplace_back();
     std::optional<size_t> cheapest;
     if (shown != visible.measures.end()) {

@@ -68,6 +68,8 @@ std::string reasonAgainstVerdict(const Sweep& sweep) {
   const store::QuantityRow* x = sweep.names.descriptions().quantity(sweep.x.name);
   if (x == nullptr || x->kind == "error" || x->direction != Direction::LowerIsBetter)
     return "“" + sweep.x.title + "” is neither a time nor a cost";
+  const store::QuantityRow* y = sweep.names.descriptions().quantity(sweep.y.name);
+  if (y != nullptr && y->kind == "time") return "“" + sweep.y.title + "” is a cost itself, no error";
   if (sweep.y.parameter || sweep.y.direction == Direction::Neither)
     return "of “" + sweep.y.title + "” neither less nor more is better";
   for (const Cell& cell : sweep.cells)
@@ -154,6 +156,11 @@ void sortRuns(const store::Store& store, Sweep& sweep) {
 }  // namespace
 
 bool isWholeFrame(const std::string& pass) { return pass == "frame" || pass == "wall" || pass == "cpu"; }
+
+bool Sweep::counterHasFront() const {
+  const store::QuantityRow* row = names.descriptions().quantity(y.name);
+  return y.direction != Direction::Neither && (row == nullptr || row->kind != "time");
+}
 
 double Sweep::comparableError(const Cell& cell) const {
   if (!y.higherIsBetter()) return *cell.y;

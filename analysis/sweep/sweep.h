@@ -65,6 +65,8 @@ struct Sweep {
   bool software = false;         ///< at least one run was timed on a software renderer
   bool severalDevices = false;
 
+  /// Whether the chart against the counter has a front: y is better on one side and no time itself.
+  bool counterHasFront() const;
   bool isComplete() const { return missing.empty() && failed.empty(); }
   /// The error as a verdict weighs it: a positive number of which less is better and ratios mean something.
   double comparableError(const Cell& cell) const;

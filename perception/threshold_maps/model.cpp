@@ -163,10 +163,15 @@ double ThresholdModel::sensitivity(int band, double luminanceCdM2) const {
 }
 
 double ThresholdModel::frequencyElevation(int band, double luminanceCdM2) const {
+  const bool needsPeak = std::holds_alternative<ActualElevation>(settings_.frequencyElevation);
+  return frequencyElevation(band, luminanceCdM2, needsPeak ? peakSensitivity(luminanceCdM2) : 0.0);
+}
+
+double ThresholdModel::frequencyElevation(int band, double luminanceCdM2, double peak) const {
   if (!originalF_.empty()) return originalF_[static_cast<size_t>(band)];
   const auto* actual = std::get_if<ActualElevation>(&settings_.frequencyElevation);
   if (!actual) return 1.0;
-  const double peak = peakSensitivity(luminanceCdM2), here = sensitivity(band, luminanceCdM2);
+  const double here = sensitivity(band, luminanceCdM2);
   return lowFrequencyOr(actual->low, band,
                         peak >= kLargestElevation * here ? kLargestElevation : std::max(peak / here, 1.0));
 }

@@ -11,7 +11,6 @@ layout(std430, binding = kThresholdTablesBuffer) readonly buffer Tables { vec4 t
 layout(std430, binding = kThresholdElevationsBuffer) readonly buffer Elevations { vec2 elevations[]; };
 
 const float kLgLow = -4.0, kCellsPerDecade = 250.0;
-const int kCells = 2500;
 
 #if !DIRECT
 // Octave and place in it are the number's own bits.
@@ -61,7 +60,15 @@ vec2 evaluate(float c[BANDS + 1], float luminance) {
   const float kLgOf2 = 0.30102999566;
   float l = clamp(log2(max(luminance, 1e-4)) * kLgOf2, -4.0, 6.0);
   float position = (l - kLgLow) * kCellsPerDecade;
-  int cell = min(int(position), kCells - 1);
+  int last = kThresholdCells - 1;
+#if KINK
+  float beyond = (luminance - kKinkCdM2) * (1.0 / (kKinkEndCdM2 - kKinkCdM2));
+  if (beyond > 0.0 && beyond < 1.0) {
+    position = float(kThresholdCells) + float(kThresholdKinkCells) * pow(beyond, kKinkExponent);
+    last += kThresholdKinkCells;
+  }
+#endif
+  int cell = min(int(position), last);
   float t = position - float(cell);
   int row = cell * (BANDS + 1);
   vec4 head = tables[row];

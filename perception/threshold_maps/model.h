@@ -41,8 +41,14 @@ class ThresholdModel {
   /// not smooth: castleCSF's rises by a factor of 1.8 from 0.0113 to 0.0114 cd/m2.
   double peakSensitivity(double luminanceCdM2) const;
   double sensitivity(int band, double luminanceCdM2) const;
+  /// Whether sensitivities change at once at castleKinkCdM2().
+  bool hasCastleKink() const {
+    return settings_.csf == "castlecsf" || settings_.csf == "castlecsf_transient";
+  }
   /// F: threshold elevation by frequency.
   double frequencyElevation(int band, double luminanceCdM2) const;
+  /// With peakSensitivity() at that luminance given.
+  double frequencyElevation(int band, double luminanceCdM2, double peak) const;
   /// T_D: threshold elevation by contrast; `c` is CSF-normalised.
   double maskingElevation(double c) const { return masking_.elevation(c); }
   double tviCdM2(double luminanceCdM2) const;

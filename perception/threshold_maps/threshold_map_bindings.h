@@ -24,6 +24,14 @@ const uint kThresholdRunBlock = 0u;
 const uint kThresholdPlacesBuffer = 2u;
 const uint kThresholdTablesBuffer = 0u;
 const uint kThresholdElevationsBuffer = 3u;
+// Cells of the tables: 250 a decade from 1e-4 cd/m2, and behind them, for castleCSF, those of equal steps of
+// the kKinkExponent-th power of the distance to its kink, up to the end of a cell of the others, which they
+// replace.
+const int kThresholdCells = 2500;
+const int kThresholdKinkCells = 128;
+const float kKinkCdM2 = 0.0112770204f;     // castleKinkCdM2()
+const float kKinkEndCdM2 = 0.0141905752f;  // 10^(-4 + 538 / 250)
+const float kKinkExponent = 0.1898f;       // kCastleKinkExponent
 
 // Luminance.
 const int kThresholdGroupSide = 16;  // of the passes without tiles

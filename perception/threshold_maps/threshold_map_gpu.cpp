@@ -166,6 +166,7 @@ ThresholdMapGpu::ThresholdMapGpu(gl::Context& context, glm::ivec2 sizePx, const 
               {"FOURTH_ROOT", yes(gpu.direct() && maskingModel == 1 && block.masking.z == 4.0F)},
               {"FLAT_SMOOTH", yes(std::holds_alternative<SmoothFlat>(settings.flat))},
               {"DIRECT", yes(gpu.direct())},
+              {"KINK", yes(!gpu.direct() && model.hasCastleKink())},
               {"TILE_X", std::to_string(kTilePx.x)},
               {"TILE_Y", std::to_string(kTilePx.y)},
               {"THREADS", std::to_string(kInvocations)},

@@ -17,9 +17,8 @@ namespace limen::perception {
 /// Threshold maps of images of one size, on the GPU in compute shaders. Agrees with computeThresholdMap() for
 /// the same settings within 0.5 % of each pixel's threshold in 32 bits and 2 % in 16 bits (nine fetches in 16
 /// bits aside, which are for comparison only: they store luminance less its mean and lose contrasts that are
-/// faint beside the distance to it). Two limits: rounding to 24 bits moves faint patterns by up to
-/// 6e-8 F / (sum of contrasts + epsilon), 0.8 % of a flat field of 80 cd/m2; and between 0.0112 and 0.0127
-/// cd/m2, where castleCSF rises by a factor of 1.8 at once, tables are off by up to 20 %. Luminances outside
+/// faint beside the distance to it). One limit: rounding to 24 bits moves faint patterns by up to
+/// 6e-8 F / (sum of contrasts + epsilon), 0.8 % of a flat field of 80 cd/m2. Luminances outside
 /// 1e-4 to 1e6 cd/m2 are read there from the tables. Source: Schwarz 2009, section 9.4.
 ///
 /// With 16 bits, not luminances are stored but band 0, the only intermediate result of full size, as signed

@@ -7,11 +7,14 @@
 #include <cstdint>
 #include <map>
 
+#include "perception/threshold_maps/threshold_map_bindings.h"
+#include "perception/vision/castle_csf.h"
+
 namespace limen::perception {
 namespace {
 
 constexpr double kLgLow = -4.0;
-constexpr int kCellsPerDecade = 250, kCells = 2500;
+constexpr int kCellsPerDecade = 250;
 
 /// floor((x + 1/2) from / to - 1/2), exactly.
 int placeOf(int x, int from, int to) {
@@ -23,19 +26,37 @@ int placeOf(int x, int from, int to) {
 
 std::vector<glm::vec4> thresholdTables(const ThresholdModel& model) {
   const auto stride = static_cast<size_t>(model.bands()) + 1;
-  std::vector<glm::vec4> out(stride * kCells);
-  forRowBlocks(kCells, 20000, [&](int first, int end) {
+  const bool kinked = model.hasCastleKink();
+  const int cells = kThresholdCells + (kinked ? kThresholdKinkCells : 0);
+  const double kink = castleKinkCdM2();
+  std::vector<glm::vec4> out(stride * static_cast<size_t>(cells));
+  // Luminance at a place between the cell's ends, 0 to 1; just inside it, on the correct side of a step.
+  const auto luminance = [&](int cell, double place) {
+    constexpr double kInside = 1e-9;
+    if (cell < kThresholdCells)
+      return std::pow(10.0, kLgLow + (cell + place) / kCellsPerDecade + (place < 0.5 ? kInside : -kInside));
+    const double power = (cell - kThresholdCells + place) / kThresholdKinkCells;
+    return kink + (kKinkEndCdM2 - kink) * std::pow(power, 1.0 / kCastleKinkExponent);
+  };
+  const double kinkPlace = (std::log10(kink) - kLgLow) * kCellsPerDecade;
+  forRowBlocks(cells, 20000, [&](int first, int end) {
     for (int cell = first; cell < end; ++cell) {
-      // Just inside the cell, on the correct side of a step.
-      constexpr double kInside = 1e-9;
-      const double low = std::pow(10.0, kLgLow + static_cast<double>(cell) / kCellsPerDecade + kInside);
-      const double high = std::pow(10.0, kLgLow + static_cast<double>(cell + 1) / kCellsPerDecade - kInside);
+      const bool hasKink = kinked && cell == static_cast<int>(kinkPlace);
+      const double low = luminance(cell, 0.0), high = hasKink ? kink : luminance(cell, 1.0);
       glm::vec4* row = &out[stride * static_cast<size_t>(cell)];
-      row[0] = {model.tviCdM2(low), model.tviCdM2(high), model.peakSensitivity(low),
-                model.peakSensitivity(high)};
+      const double peakLow = model.peakSensitivity(low), peakHigh = model.peakSensitivity(high);
+      row[0] = {model.tviCdM2(low), model.tviCdM2(high), peakLow, peakHigh};
       for (int band = 0; band < model.bands(); ++band)
         row[1 + band] = {model.sensitivity(band, low), model.sensitivity(band, high),
-                         model.frequencyElevation(band, low), model.frequencyElevation(band, high)};
+                         model.frequencyElevation(band, low, peakLow),
+                         model.frequencyElevation(band, high, peakHigh)};
+      if (!hasKink) continue;
+      // Only what lies below the kink is read here: its line, drawn on to the cell's end.
+      const auto drawOn = [&](float from, float& to) {
+        to = from + (to - from) / static_cast<float>(kinkPlace - cell);
+      };
+      for (glm::vec4* entry = row; entry < row + stride; ++entry)
+        drawOn(entry->x, entry->y), drawOn(entry->z, entry->w);
     }
   });
   return out;

@@ -62,6 +62,8 @@ double castleTransientHz(double luminanceCdM2) {
       0.0, kCastle2024.transientHz + kCastle2024.transientSlope * std::log10(heldLuminance(luminanceCdM2)));
 }
 
+double castleKinkCdM2() { return std::pow(10.0, -kCastle2024.transientHz / kCastle2024.transientSlope); }
+
 double castleTemporal(CastleMechanism mechanism, double omegaHz, double luminanceCdM2) {
   if (std::isnan(omegaHz) || std::isnan(luminanceCdM2)) return 0.0;
   const double omega = std::abs(omegaHz);

@@ -30,6 +30,10 @@ double castleSpatial(CastleMechanism mechanism, double rho, double luminanceCdM2
 double castleTemporal(CastleMechanism mechanism, double omegaHz, double luminanceCdM2);
 /// Temporal frequency that the transient mechanism responds to best: 4.7 Hz at 1 cd/m2, 9.5 Hz at 100.
 double castleTransientHz(double luminanceCdM2);
+/// Luminance up to which castleTransientHz() is 0 [cd/m2]. Above it castleTemporal() of the transient
+/// mechanism changes with the distance's kCastleKinkExponent-th power: at once, in practice.
+double castleKinkCdM2();
+inline constexpr double kCastleKinkExponent = 0.1898;
 
 /// Product of both, with the loss at `eccentricityDeg` in the nasal field.
 double csfCastle(CastleMechanism mechanism, double rho, double omegaHz, double luminanceCdM2, double areaDeg2,

@@ -6,6 +6,7 @@
 #include "experiments/base/hash.h"
 #include "experiments/base/text.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/program_binary.h"
 
 namespace limen::gl {
 namespace {
@@ -50,6 +51,8 @@ const Program& ProgramCache::get(const std::vector<std::string>& paths, const Sh
   Entry entry{paths, defines, nullptr, {}, {}, {}, {}};
   const std::vector<ShaderText> stages = read(entry);
   entry.program = std::make_unique<Program>(stages);
+  if (const std::string folder = programBinaryFolder(); !folder.empty())
+    writeProgramBinary(*entry.program, folder, paths, describeProgram(paths, defines));
   return *(programs_[key] = std::move(entry)).program;
 }
 

@@ -5,21 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "renderer/surfaces/sharpness_rules.h"
+
 namespace limen::surfaces {
 namespace {
-
-double nextSharpness(double s) { return s >= kInfinitelySharp ? s : std::max(0.0, s - 1.0); }
-
-/// Ends of the sharp edges at a vertex, at this level or the next.
-std::vector<uint32_t> sharpEnds(const PolygonMesh& mesh, const MeshTopology& topology, uint32_t vertex,
-                                bool next) {
-  std::vector<uint32_t> out;
-  for (const uint32_t end : topology.rings()[vertex].edges) {
-    const double s = topology.sharpness(mesh, edgeKey(vertex, end));
-    if ((next ? nextSharpness(s) : s) > 0.0) out.push_back(end);
-  }
-  return out;
-}
 
 class Step {
  public:
@@ -83,20 +72,9 @@ class Step {
     return 0.75 * mesh_.points[v] + 0.125 * (mesh_.points[sharp[0]] + mesh_.points[sharp[1]]);
   }
 
-  /// The rule of this level, blended with that of the next where edges lose their sharpness on the way.
   glm::dvec3 vertexPoint(uint32_t v) const {
-    const VertexRing& ring = topology_.rings()[v];
-    if (ring.faces.empty()) return mesh_.points[v];
-    if (!ring.closed && ring.faces.size() == 1) return mesh_.points[v];
-    const std::vector<uint32_t> now = sharpEnds(mesh_, topology_, v, false),
-                                next = sharpEnds(mesh_, topology_, v, true);
-    if (now.size() == next.size()) return byRule(v, now);
-    double lost = 0.0;
-    for (const uint32_t end : now)
-      if (std::find(next.begin(), next.end(), end) == next.end())
-        lost += topology_.sharpness(mesh_, edgeKey(v, end));
-    const double share = std::min(1.0, lost / double(now.size() - next.size()));
-    return share * byRule(v, now) + (1.0 - share) * byRule(v, next);
+    return refinedVertex(mesh_, topology_, v,
+                         [&](const std::vector<uint32_t>& sharp) { return byRule(v, sharp); });
   }
 
   const PolygonMesh& mesh_;
@@ -205,7 +183,7 @@ LimitPoints catmullClarkLimit(const PolygonMesh& mesh, Fans fans) {
       out.points.push_back(p);
       continue;
     }
-    const std::vector<uint32_t> sharp = sharpEnds(mesh, topology, v, false);
+    const std::vector<uint32_t> sharp = sharpEnds(mesh, topology, v);
     const size_t n = ring.faces.size();
     const bool smooth = sharp.size()<2, corner = sharp.size()> 2 || (!ring.closed && n == 1);
     if (smooth) {

@@ -5,37 +5,10 @@
 #include <optional>
 
 #include "renderer/surfaces/catmull_clark.h"
+#include "renderer/surfaces/sharpness_rules.h"
 
 namespace limen::surfaces {
 namespace {
-
-/// The face, which becomes number 0, and all that touch it.
-PolygonMesh surroundings(const PolygonMesh& mesh, uint32_t face) {
-  const std::vector<uint32_t>& own = mesh.faces[face];
-  PolygonMesh out;
-  std::map<uint32_t, uint32_t> places;
-  const auto add = [&](const std::vector<uint32_t>& corners) {
-    std::vector<uint32_t> moved;
-    for (const uint32_t v : corners) {
-      const auto [at, isNew] = places.try_emplace(v, static_cast<uint32_t>(out.points.size()));
-      if (isNew) out.points.push_back(mesh.points[v]);
-      moved.push_back(at->second);
-    }
-    out.faces.push_back(std::move(moved));
-  };
-  add(own);
-  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    const std::vector<uint32_t>& corners = mesh.faces[f];
-    if (f != face &&
-        std::find_first_of(corners.begin(), corners.end(), own.begin(), own.end()) != corners.end())
-      add(corners);
-  }
-  for (const auto& [edge, s] : mesh.sharpness) {
-    const auto a = places.find(edge[0]), b = places.find(edge[1]);
-    if (a != places.end() && b != places.end()) out.sharpness[edgeKey(a->second, b->second)] = s;
-  }
-  return out;
-}
 
 using Grid = std::array<std::array<glm::dvec3, 4>, 4>;  // [x + 1][y + 1]
 
@@ -97,16 +70,24 @@ LimitPoint inRegularFace(const Grid& grid, double u, double v, int steps) {
 
 LimitPoint catmullClarkPoint(const PolygonMesh& mesh, uint32_t face, double u, double v, int mostSteps) {
   PolygonMesh around = surroundings(mesh, face);
+  glm::dvec3 origin(0.0);
   for (int steps = 0;; ++steps) {
+    // Faces shrink below the rounding of their position.
+    const glm::dvec3 start = around.points[0];
+    for (glm::dvec3& p : around.points) p -= start;
+    origin += start;
     const MeshTopology topology(around, Fans::Any);
-    if (const std::optional<Grid> grid = regularGrid(around, topology))
-      return inRegularFace(*grid, u, v, steps);
+    if (const std::optional<Grid> grid = regularGrid(around, topology)) {
+      LimitPoint point = inRegularFace(*grid, u, v, steps);
+      point.position += origin;
+      return point;
+    }
     // The child at the nearest corner, seen from that corner: x towards the next one.
     const size_t corner = u < 0.5 ? (v < 0.5 ? 0 : 3) : (v < 0.5 ? 1 : 2);
     // Semi-sharp edges have become smooth by now.
     if (steps >= std::max(mostSteps, int(kInfinitelySharp))) {
       const LimitPoints limit = catmullClarkLimit(around, Fans::Any);
-      return {limit.points[around.faces[0][corner]], limit.normals[0][corner], steps};
+      return {origin + limit.points[around.faces[0][corner]], limit.normals[0][corner], steps};
     }
     const std::array<glm::dvec2, 4> seen = {{{u, v}, {v, 1.0 - u}, {1.0 - u, 1.0 - v}, {1.0 - v, u}}};
     u = 2.0 * seen[corner].x, v = 2.0 * seen[corner].y;

@@ -75,6 +75,32 @@ LIMEN_RULES LIMEN_REAL2 segmentsFor(LIMEN_REAL uu, LIMEN_REAL uv, LIMEN_REAL vv,
   return m;
 }
 
+// The same with at most `most` along each direction: where the rule asks for more along one of them, the
+// condition is solved again for the other one, which it may hold with some more. Above `most` where no number
+// up to it does.
+LIMEN_RULES LIMEN_REAL2 segmentsWithin(LIMEN_REAL uu, LIMEN_REAL uv, LIMEN_REAL vv, LIMEN_REAL eps8, int rule,
+                                       LIMEN_REAL most) {
+  LIMEN_REAL2 m = segmentsFor(uu, uv, vv, eps8, rule);
+  if (m.y > most && m.x < most) {
+    const LIMEN_REAL left = eps8 - vv / (most * most), half_ = uv / most;
+    if (left > LIMEN_REAL(0)) {
+      const LIMEN_REAL other = (half_ + sqrt(half_ * half_ + left * uu)) / left;
+      m = LIMEN_REAL2(other > m.x ? other : m.x, most);
+    } else {
+      m.x = most;
+    }
+  } else if (m.x > most && m.y < most) {
+    const LIMEN_REAL left = eps8 - uu / (most * most), half_ = uv / most;
+    if (left > LIMEN_REAL(0)) {
+      const LIMEN_REAL other = (half_ + sqrt(half_ * half_ + left * vv)) / left;
+      m = LIMEN_REAL2(most, other > m.y ? other : m.y);
+    } else {
+      m.y = most;
+    }
+  }
+  return m;
+}
+
 #ifdef __cplusplus
 }  // namespace limen::surfaces
 #endif

@@ -98,7 +98,8 @@ void onAllCores(size_t count, const Work& work) {
   const size_t threads = std::max<size_t>(std::thread::hardware_concurrency(), 1);
   std::vector<std::jthread> helpers;
   for (size_t thread = 1; thread < threads; ++thread)
-    helpers.emplace_back([&, thread] { work(thread, count * thread / threads, count * (thread + 1) / threads); });
+    helpers.emplace_back(
+        [&, thread] { work(thread, count * thread / threads, count * (thread + 1) / threads); });
   work(0, 0, count / threads);
 }
 
@@ -117,12 +118,12 @@ Deviation deviationOf(const PatchSet& set, const TessellatedSurface& tessellatio
                       const DeviationSettings& settings) {
   const int64_t each = int64_t{settings.steps + 1} * (settings.steps + 2) / 2;
   const size_t count = tessellation.triangles.size();
-  const size_t taken =
-      std::min(count, static_cast<size_t>(std::max<int64_t>(settings.samples / each, 1)));
+  const size_t taken = std::min(count, static_cast<size_t>(std::max<int64_t>(settings.samples / each, 1)));
   std::vector<Samples> parts(coreCount());
   onAllCores(taken, [&](size_t thread, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
-      sampleTriangle(set, tessellation, tessellation.triangles[i * count / taken], settings.steps, parts[thread]);
+      sampleTriangle(set, tessellation, tessellation.triangles[i * count / taken], settings.steps,
+                     parts[thread]);
   });
   Samples all;
   for (const Samples& part : parts) {
@@ -182,9 +183,14 @@ Cracks cracksOf(const PatchSet& set, const TessellatedSurface& tessellation) {
   for (size_t i = 0; i < set.patches.size() && i < set.neighbours.size(); ++i)
     for (size_t side = 0; side < static_cast<size_t>(sidesOf(set.patches[i].domain)); ++side) {
       const Neighbour& neighbour = set.neighbours[i][side];
-      if (neighbour.patch < static_cast<int32_t>(i)) continue;  // compared from the other patch, or none
+      if (neighbour.patch < 0) {
+        out.openSides += !sides[i][side].empty() && !isCollapsed(set, set.patches[i], static_cast<int>(side));
+        continue;
+      }
+      if (neighbour.patch < static_cast<int32_t>(i)) continue;  // compared from the other patch
       const SideVertices &mine = sides[i][side],
-                         &theirs = sides[static_cast<size_t>(neighbour.patch)][static_cast<size_t>(neighbour.side)];
+                         &theirs =
+                             sides[static_cast<size_t>(neighbour.patch)][static_cast<size_t>(neighbour.side)];
       if (mine.empty() || theirs.empty()) continue;
       ++out.sides;
       // Places agree to rounding: 1 - t and (n - i) / n may differ in the last bit.

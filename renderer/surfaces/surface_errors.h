@@ -17,10 +17,11 @@ struct DeviationSettings {
 
 /// Distances between a tessellation and the surface that it stands for, in double precision.
 struct Deviation {
-  Spread atParameters;    ///< to the surface's point at equal parameters; world units
-  Spread closest;         ///< from points of the triangles to the closest point of their patch found from there
-  Spread atParametersPx;  ///< size of the same distances, as seen across the view at the surface's point's depth
-  Spread closestPx;       ///< (never nearer than the near plane); of samples in the view alone
+  Spread atParameters;  ///< to the surface's point at equal parameters; world units
+  Spread closest;       ///< from points of the triangles to the closest point of their patch found from there
+  Spread
+      atParametersPx;  ///< size of the same distances, as seen across the view at the surface's point's depth
+  Spread closestPx;    ///< (never nearer than the near plane); of samples in the view alone
   int64_t samples = 0, samplesInView = 0;
 };
 Deviation deviationOf(const PatchSet& set, const TessellatedSurface& tessellation,
@@ -35,7 +36,8 @@ struct Cracks {
   int64_t unequalVertices = 0;  ///< vertices on both sides whose positions differ in any bit
   int64_t loneVertices = 0;     ///< T-vertices: those on one of the two sides alone
   int64_t openEdges = 0;        ///< triangle edges inside a patch with no triangle beyond
-  int64_t foldOvers = 0;        ///< triangles that are turned over or without area in the domain
+  int64_t openSides = 0;  ///< without a patch that has all of the side: boundaries, and sides shared in part
+  int64_t foldOvers = 0;  ///< triangles that are turned over or without area in the domain
 };
 Cracks cracksOf(const PatchSet& set, const TessellatedSurface& tessellation);
 

@@ -156,6 +156,16 @@ TEST_F(SweepTest, ThereIsNoVerdictWhereXIsNeitherATimeNorACost) {
   }
 }
 
+TEST_F(SweepTest, ThereIsNoVerdictOverTimesAgainstCosts) {
+  std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {2}, 0.05)};
+  runs[0].measurements.push_back({"nodes_per_px", 10.0, "1/px", "counter"});
+  runs[1].measurements.push_back({"nodes_per_px", 20.0, "1/px", "counter"});
+  const Sweep sweep = load(runs, {{"x", "nodes_per_px"}, {"y", "gpu_ms"}});
+  EXPECT_THAT(sweep.noVerdict, testing::HasSubstr("is a cost itself"));
+  EXPECT_FALSE(sweep.counterHasFront());
+  EXPECT_TRUE(sweep.panels.at(0).front.empty());
+}
+
 TEST_F(SweepTest, ACounterIsACostAndHasAVerdict) {
   std::vector<store::Run> runs = {makeRun("a", "s", 1, {1}, 0.1), makeRun("a", "s", 2, {1}, 0.05)};
   runs[0].measurements.push_back({"nodes_per_px", 10.0, "1/px", "counter"});

@@ -77,6 +77,16 @@ TEST(Descriptor, ReportAxesMayNameWhatATechniqueCounts) {
             "fetches_per_px");
 }
 
+TEST(Descriptor, AReportFitsOverParameters) {
+  const std::string text =
+      "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/sampled, samples: [4, 16]}]\n";
+  EXPECT_EQ(parse(text).report.count("fit"), 0U);
+  EXPECT_EQ(parse(text + "report: {fit: samples}\n").report["fit"], "samples");
+  EXPECT_EQ(parse(text + "report: {x: samples, fit: [samples, width]}\n").report["fit"], "samples, width");
+  for (const char* wrong : {"sample", "[samples, gpu_ms]", "[]", "{a: 1}", "technique"})
+    EXPECT_THROW(parse(text + "report: {fit: " + wrong + "}\n"), Error) << wrong;
+}
+
 TEST(Descriptor, OneMetricWithSeveralValuesGivesSeveralMeasurements) {
   const Descriptor descriptor = parse(
       "title: a\nquestion: b\nscenes: [{name: grid}]\ntechniques: [{name: soft/pcss}]\n"

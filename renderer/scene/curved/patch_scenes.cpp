@@ -103,11 +103,11 @@ Scene buildHerd(const HerdSettings& settings) {
     append(herd, transformed(animal, glm::rotate(place, 0.5 * std::sin(1.7 * i), {0.0, 1.0, 0.0})));
   }
   Scene scene;
-  addGround(scene, 32.0);
+  addGround(scene, 36.0);
   addSurface(scene, "herd", std::move(herd), settings.tessellation, {0.62F, 0.5F, 0.4F});
   frameStanding(scene, 1.4, 4.0);
   scene.lights[0].size = glm::dvec2(2.0);
-  setStillCamera(scene, orbitCamera({0.0, 0.4, -0.3}, 9.5, 12.0, 30.0));
+  setStillCamera(scene, orbitCamera({0.5, 0.4, -0.3}, 10.5, 12.0, 30.0));
   return scene;
 }
 

@@ -79,7 +79,7 @@ using CreasedForm = std::variant<CreasedPnForm, PhongForm>;
 /// A scene's parameter for it.
 template <class S, class Form>
 Binding<S> formBinding(Form S::*member) {
-  return {member, "form", "How the base triangles become curved", "Schwarz 2009, section 6.1.3"};
+  return {member, "primitive", "How the base triangles become curved", "Schwarz 2009, section 6.1.3"};
 }
 
 /// Corner normals are given.

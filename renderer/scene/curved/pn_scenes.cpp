@@ -206,9 +206,10 @@ Scene curvedMesh(ImportedMesh file, const BaseSettings& settings) {
   // Curved triangles bulge; the base mesh touches the ground.
   scaleAndMove(mesh, 1.0, {0.0, 0.02, 0.0});
   Scene scene;
-  addGround(scene, 8.0 * std::max(1.0, reach));
+  addGround(scene, 8.0 * std::max(1.25, reach));
   addSurface(scene, "mesh", curvedSet(mesh, settings.form), settings.tessellation, kClay);
-  frameStanding(scene, 1.0, reach);
+  // Wider than high, for the horse's neck and tail.
+  frameStanding(scene, 1.0, std::max(reach, 1.25));
   return scene;
 }
 

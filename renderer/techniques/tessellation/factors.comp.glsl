@@ -208,7 +208,8 @@ void main() {
   const vec3 second = secondBounds(first, shape, box, eps);
 #endif
   if (isRectangle(shape)) {
-    const vec2 segments = segmentsFor(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE);
+    const vec2 segments =
+        segmentsWithin(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE, float(mostSegments));
     ownFactors[number] = packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
   } else {
     ownFactors[number] = packedUnits(triangleUnits(second, eps, degreeU(shape)));

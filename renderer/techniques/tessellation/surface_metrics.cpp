@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Metrics of the tessellated surface itself, against the patches that it stands for, in double precision. The thesis
-// bounds its errors and looks at pictures; it measures none.
+// Metrics of the tessellated surface itself, against the patches that it stands for, in double precision. The
+// thesis bounds its errors and looks at pictures; it measures none.
 #include "perception/metrics/metric.h"
 #include "renderer/surfaces/surface_errors.h"
 
@@ -59,7 +59,8 @@ MetricResult measureDeviation(const ComparisonInput& input, const SurfaceDeviati
 std::vector<Quantity> deviationFigures() {
   std::vector<Quantity> out;
   const auto add = [&](const std::string& name, const std::string& title, const std::string& unit) {
-    for (const auto& [suffix, label] : {std::pair("mean", "mean"), {"p99", "99th percentile"}, {"max", "largest"}})
+    for (const auto& [suffix, label] :
+         {std::pair("mean", "mean"), {"p99", "99th percentile"}, {"max", "largest"}})
       out.emplace_back(name.empty() ? suffix : std::string(suffix) + "_" + name, title + ", " + label, unit,
                        Direction::LowerIsBetter);
   };
@@ -85,16 +86,18 @@ MetricResult measureCracks(const ComparisonInput& input, const perception::NoMet
   requireTessellation(input);
   const surfaces::Cracks found = surfaces::cracksOf(*input.patches, *input.tessellation);
   MetricResult out;
-  out.value = static_cast<double>(found.unequalVertices + found.loneVertices + found.openEdges + found.foldOvers);
+  out.value =
+      static_cast<double>(found.unequalVertices + found.loneVertices + found.openEdges + found.foldOvers);
   out.figures = {double(found.unequalVertices), double(found.loneVertices), double(found.openEdges),
-                 double(found.foldOvers), double(found.sides)};
+                 double(found.foldOvers),       double(found.sides),        double(found.openSides)};
   out.evaluatedPixels = found.sides;
   return out;
 }
 
 const RegisteredMetric<SurfaceDeviationSettings> kSurfaceDeviationRegistered{
     {.name = "surface_deviation",
-     .summary = "distance between the tessellation and the surface, at equal parameters and to the closest point, in "
+     .summary = "distance between the tessellation and the surface, at equal parameters and to the closest "
+                "point, in "
                 "pixels at the surface's depth and as a share of its diagonal",
      .source = "bench",
      .title = "Deviation from the surface, largest",
@@ -119,7 +122,8 @@ const RegisteredMetric<perception::NoMetricSettings> kSurfaceNormalsRegistered{
 
 const RegisteredMetric<perception::NoMetricSettings> kSurfaceCracksRegistered{
     {.name = "surface_cracks",
-     .summary = "vertices of common sides that differ in any bit or have no partner, open edges, triangles turned over",
+     .summary = "vertices of common sides that differ in any bit or have no partner, open edges, triangles "
+                "turned over",
      .source = "bench",
      .title = "Cracks and fold-overs",
      .unit = "",
@@ -127,7 +131,8 @@ const RegisteredMetric<perception::NoMetricSettings> kSurfaceCracksRegistered{
                  {"lone", "T-vertices", "vertices", Direction::LowerIsBetter},
                  {"open", "Open edges within patches", "edges", Direction::LowerIsBetter},
                  {"fold_overs", "Triangles turned over", "triangles", Direction::LowerIsBetter},
-                 {"sides", "Common sides compared", "sides", Direction::Neither}},
+                 {"sides", "Common sides compared", "sides", Direction::Neither},
+                 {"open_sides", "Sides without one partner", "sides", Direction::Neither}},
      .needsTessellation = true,
      .needsReference = false},
     &measureCracks};

@@ -207,6 +207,40 @@ TEST(Factors, EveryRuleSatisfiesTheConditionForAnyBounds) {
   }
 }
 
+// A twisted strip, straight along u: one segment across would take 1,333 along. With 64 of them, the
+// condition holds with 24 across.
+TEST(Factors, WhereOneDirectionIsCappedTheOtherTakesMore) {
+  const double uv = 6.0, vv = 18.0, eps8 = 9e-3, most = 64;
+  EXPECT_GT(segmentsFor(0.0, uv, vv, eps8, kRuleAbiEzziShirman).y, 1000.0);
+  const dvec2 m = segmentsWithin(0.0, uv, vv, eps8, kRuleAbiEzziShirman, most);
+  EXPECT_EQ(m.y, most);
+  // 2 uv du / 64 = 9e-3 - 18 / 64^2.
+  EXPECT_NEAR(m.x, 2 * uv / most / (eps8 - vv / most / most), 1e-9);
+  EXPECT_LE(m.x, most);
+
+  Random random(9);
+  int helped = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto size = [&] { return i % 3 == 0 ? 0.0 : std::pow(10.0, uniform(random, -6, 3)); };
+    const double a = size(), b = std::pow(10.0, uniform(random, -3, 3)), c = size();
+    const double e = std::pow(10.0, uniform(random, -4, 1));
+    for (const FactorRule rule : kRules) {
+      const dvec2 free = segmentsFor(a, b, c, e, int(rule)),
+                  held = segmentsWithin(a, b, c, e, int(rule), most);
+      if (free.x <= most && free.y <= most) {
+        ASSERT_EQ(free, held);
+      } else if (held.x <= most && held.y <= most) {
+        ASSERT_LE(a / held.x / held.x + 2 * b / held.x / held.y + c / held.y / held.y, e * (1 + 1e-9));
+        ++helped;
+      } else {
+        // Both at their most are too few.
+        ASSERT_GT(a / most / most + 2 * b / most / most + c / most / most, e * (1 - 1e-9));
+      }
+    }
+  }
+  EXPECT_GT(helped, 1000);
+}
+
 TEST(Factors, RecentringNeverAsksForMoreAndIgnoresWhereThePatchLies) {
   Random random(4);
   for (int i = 0; i < 300; ++i) {

@@ -86,6 +86,7 @@ TEST(SurfaceErrors, CommonSidesOfEqualFactorsHaveNoCracks) {
   EXPECT_EQ(found.loneVertices, 0);
   EXPECT_EQ(found.openEdges, 0);
   EXPECT_EQ(found.foldOvers, 0);
+  EXPECT_EQ(found.openSides, 6);
 }
 
 TEST(SurfaceErrors, EachKindOfCrackIsFound) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Recursive refinement of patches until each part is flat on the screen, on the CPU in double precision
+// (Schwarz 2009, section 7.2; SC-37, 38, 40 to 42).
+#pragma once
+
+#include "renderer/surfaces/flatness.h"
+#include "renderer/surfaces/tessellated_surface.h"
+
+namespace limen::surfaces {
+
+enum class SplitPolicy {
+  Halves,    ///< rectangle: into two, by the sides that are not flat; triangle: at each side that is not flat
+  Quarters,  ///< into four
+  Mixed,     ///< rectangle: into four if sides of both directions are not flat, otherwise as Halves
+  Restricted  ///< Quarters with neighbours that differ by one level at most: restricted quadtree, red-green
+              ///< triangles
+};
+constexpr EnumNames<SplitPolicy, 4> enumNames(SplitPolicy) {
+  return {{{{SplitPolicy::Halves, "halves"},
+            {SplitPolicy::Quarters, "quarters"},
+            {SplitPolicy::Mixed, "mixed"},
+            {SplitPolicy::Restricted, "restricted"}}}};
+}
+
+struct RecursionSettings {
+  Flatness flatness = Flatness::Control;
+  SplitPolicy split = SplitPolicy::Halves;
+  double tolerancePx = 0.5;
+  int mostSteps = 14;
+  bool cull = true;  ///< parts outside the view are left out
+};
+
+struct RecursionCounts {
+  int64_t tests = 0;      ///< parts tested
+  int64_t faces = 0;      ///< flat parts: quads, or triangles
+  int64_t triangles = 0;  ///< of the surface
+  int64_t culled = 0;     ///< parts
+  int64_t cutShort = 0;   ///< parts that are drawn although not flat, as mostSteps is reached
+  int steps = 0;          ///< from a patch to its smallest part
+};
+
+/// The refined surface: positions of vertices relative to `anchor`. Vertices are shared within a patch alone.
+TessellatedSurface refined(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
+                           glm::dvec3 anchor = glm::dvec3(0.0), RecursionCounts* counts = nullptr);
+
+}  // namespace limen::surfaces

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curved surfaces by casting a ray through each pixel's centre on the CPU, in double precision (SC-33):
+// Bézier clipping (Nishita et al. 1990), or subdivision by convex hulls, which misses no root. Schwarz 2009,
+// section 6.5.1, names both families. Weights of rational patches must be positive.
+#include <epoxy/gl.h>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/ray_casting/ray_casting_bindings.h"
+#include "renderer/techniques/ray_casting/view_rays.h"
+#include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_view.h"
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+struct ExactRaysSettings {
+  surfaces::RootFinder roots = surfaces::RootFinder::Clipping;
+  double tolerancePx = 1e-4;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ExactRaysSettings>& table() {
+    using S = ExactRaysSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::roots, "roots", "How intersections are found"},
+        {&S::tolerancePx,
+         "tolerance_px",
+         {1e-9, 1},
+         "px",
+         "Distance from the ray that counts as a hit, where the surface is nearest"},
+        frame::shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+class ExactRays : public Technique {
+ public:
+  using Settings = ExactRaysSettings;
+  explicit ExactRays(const Settings& settings) : settings_(settings) {}
+  ~ExactRays() override {
+    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
+  }
+
+  void prepare(frame::Frame& frame) override {
+    for (const glm::dvec4& p : frame.scene().surfaces.points)
+      if (!(p.w > 0.0))
+        throw Error("the scene has a control point whose weight is not positive", "scene",
+                    "exact ray casting relies on the hulls of control points");
+    const std::string folder = "renderer/techniques/ray_casting/exact/";
+    program_ = &frame.context().programs().get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
+    picture_.emplace(frame, settings_.shading, "ray_casting");
+    ids_.emplace(gl::Format::R32UI, frame.sizePx());
+    normals_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    glCreateVertexArrays(1, &vertexArray_);
+  }
+
+  void render(frame::Frame& frame) override {
+    const scene::Scene& scene = frame.scene();
+    exact_ = exactView(scene.surfaces, settings_.roots, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
+    std::vector<uint32_t> ids;
+    Image normals(frame.sizePx().x, frame.sizePx().y, 4);
+    for (size_t i = 0; i < exact_.pixels.size(); ++i) {
+      const ExactPixel& pixel = exact_.pixels[i];
+      ids.push_back(0);
+      if (!pixel.hit) continue;
+      ids.back() = kSurfaceOfPatch | scene.parts[scene.surfaces.patches[pixel.at.patch].part].material;
+      for (int c = 0; c < 3; ++c)
+        normals.data[4 * i + static_cast<size_t>(c)] = static_cast<float>(pixel.normal[c]);
+      normals.data[4 * i + 3] = static_cast<float>(pixel.distance);
+    }
+    ids_->writeUint(ids);
+    normals_->write(normals);
+    picture_->render(frame, [&] {
+      program_->use();
+      program_->set("nearest", static_cast<float>(frame::nearPlane(frame)));
+      ids_->bindTexture(kSeenIdsUnit);
+      normals_->bindTexture(kSeenNormalsUnit);
+      glBindVertexArray(vertexArray_);
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+    });
+  }
+
+  const gl::Texture& product() const override { return picture_->texture(); }
+
+  std::vector<Counter> count(frame::Frame&) override {
+    double hits = 0.0;
+    for (const ExactPixel& pixel : exact_.pixels) hits += pixel.hit;
+    return {{"surface_px", hits},
+            {"root_steps_per_px", double(exact_.counts.steps) / double(exact_.pixels.size())},
+            {"root_splits_per_px", double(exact_.counts.splits) / double(exact_.pixels.size())},
+            {"duplicate_roots", double(exact_.counts.duplicates)},
+            {"false_roots", double(exact_.counts.falseReports)}};
+  }
+
+  static std::vector<Quantity> quantities() {
+    const Direction lower = Direction::LowerIsBetter;
+    return {{"surface_px", "Pixels that see the surface", "px", Direction::Neither},
+            {"root_steps_per_px", "Clips, or parts looked at", "steps/px", lower},
+            {"root_splits_per_px", "Halvings where clipping did not get on", "splits/px", lower},
+            {"duplicate_roots", "Roots found more than once, and dropped", "roots", lower},
+            {"false_roots", "Reports that are no root, and dropped", "roots", lower}};
+  }
+
+ private:
+  Settings settings_;
+  std::optional<SurfacePicture> picture_;
+  std::optional<gl::Texture> ids_, normals_;
+  const gl::Program* program_ = nullptr;
+  ExactView exact_;
+  uint32_t vertexArray_ = 0;
+};
+
+const RegisteredTechnique<ExactRays> kExactRaysRegistered{
+    {.name = "ray_casting/exact",
+     .version = 1,
+     .summary = "Curved surfaces by casting rays on the CPU in double precision, by Bézier clipping or hulls",
+     .source = "Nishita, Sederberg and Kakimoto 1990; Schwarz 2009, section 6.5.1 (SC-33)",
+     .product = ProductKind::Colour,
+     .needs = {"curved_surfaces"},
+     .reference = true,
+     .onCpu = true,
+     .counters = ExactRays::quantities()}};
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/recursion/vertex_array.h"
+
+#include <epoxy/gl.h>
+
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+
+SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buffer& indices) {
+  glCreateVertexArrays(1, &id_);
+  glVertexArrayAttribFormat(id_, 0, 3, GL_FLOAT, GL_FALSE, offsetof(TessellatedVertex, position));
+  glVertexArrayAttribIFormat(id_, 1, 1, GL_UNSIGNED_INT, offsetof(TessellatedVertex, material));
+  glVertexArrayAttribFormat(id_, 2, 3, GL_FLOAT, GL_FALSE, offsetof(TessellatedVertex, normal));
+  for (GLuint attribute = 0; attribute < 3; ++attribute) {
+    glVertexArrayAttribBinding(id_, attribute, 0);
+    glEnableVertexArrayAttrib(id_, attribute);
+  }
+  glVertexArrayVertexBuffer(id_, 0, vertices.id(), 0, sizeof(TessellatedVertex));
+  glVertexArrayElementBuffer(id_, indices.id());
+}
+
+SurfaceVertexArray::~SurfaceVertexArray() { glDeleteVertexArrays(1, &id_); }
+
+void SurfaceVertexArray::bind() const { glBindVertexArray(id_); }
+
+}  // namespace limen::techniques

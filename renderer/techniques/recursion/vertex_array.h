@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/gl/buffer.h"
+
+namespace limen::techniques {
+
+/// Attributes of tessellation's surface.vert.glsl from a buffer of TessellatedVertex, with indices.
+class SurfaceVertexArray {
+ public:
+  SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buffer& indices);
+  ~SurfaceVertexArray();
+  SurfaceVertexArray(const SurfaceVertexArray&) = delete;
+  SurfaceVertexArray& operator=(const SurfaceVertexArray&) = delete;
+  void bind() const;
+
+ private:
+  uint32_t id_ = 0;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/ray_casting/view_rays.h"
+
+#include "renderer/surfaces/bezier.h"
+#include "renderer/techniques/tessellation/surface_view.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+class RayCasting : public TechniqueTest {
+ protected:
+  static double meanDifference(const Image& a, const Image& b) {
+    double sum = 0.0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x)
+        for (int c = 0; c < 3; ++c) sum += std::abs(double(a.at(x, y, c)) - b.at(x, y, c));
+    return sum / (3.0 * a.width * a.height);
+  }
+};
+
+constexpr glm::ivec2 kSize{96, 72};
+
+// Two root finders that share nothing but the ray.
+TEST_F(RayCasting, BothExactMethodsShowTheSame) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"}) {
+    const scene::Scene scene = makeScene(name);
+    const Rendered clips = render(scene, "ray_casting/exact", {}, kSize, true);
+    const Rendered hulls =
+        render(scene, "ray_casting/exact", {{"roots", std::string("hull_subdivision")}}, kSize, true);
+    EXPECT_EQ(clips.counter("surface_px"), hulls.counter("surface_px")) << name;
+    EXPECT_GT(clips.counter("surface_px"), 500) << name;
+    EXPECT_LT(meanDifference(clips.product, hulls.product), 1e-5) << name;
+  }
+}
+
+// A fine tessellation is another picture of the same surface: they differ at silhouettes alone.
+TEST_F(RayCasting, ExactRaysShowWhatAFineTessellationShows) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"}) {
+    const scene::Scene scene = makeScene(name);
+    const Rendered rays = render(scene, "ray_casting/exact", {}, kSize);
+    const Rendered fine =
+        render(scene, "tessellation/uniform_fine",
+               {{"segments", int64_t{std::string(name) == "curved/teapot" ? 64 : 16}}}, kSize);
+    EXPECT_LT(meanDifference(rays.product, fine.product), 1e-3) << name;
+  }
+}
+
+TEST_F(RayCasting, PrismsShowWhatExactRaysShow) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const Rendered exact = render(scene, "ray_casting/exact", {}, kSize, true);
+  for (const int64_t subPrisms : {1, 4, 16})
+    for (const char* sides : {"back", "front"}) {
+      const Rendered prisms = render(
+          scene, "ray_casting/pn_prisms",
+          {{"sub_prisms", subPrisms}, {"sides", std::string(sides)}, {"tolerance_px", 0.01}}, kSize, true);
+      EXPECT_EQ(prisms.counter("prisms"), 1536 * subPrisms);
+      EXPECT_EQ(prisms.counter("surface_px"), exact.counter("surface_px"));
+      EXPECT_EQ(prisms.counter("hole_px"), 0) << subPrisms << sides;
+      EXPECT_LE(prisms.counter("missed_px") + prisms.counter("false_px"), 3) << subPrisms << sides;
+      EXPECT_LE(prisms.counter("wrong_place_px"), 3) << subPrisms << sides;
+      EXPECT_LT(meanDifference(exact.product, prisms.product), 1e-3) << subPrisms << sides;
+    }
+}
+
+// The comparison itself finds what is wrong: with no Newton step, hardly anything is hit.
+TEST_F(RayCasting, MissedPixelsAreCounted) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const Rendered few =
+      render(scene, "ray_casting/pn_prisms", {{"steps", int64_t{1}}, {"tolerance_px", 0.001}}, kSize, true);
+  EXPECT_GT(few.counter("missed_px"), 0.05 * few.counter("surface_px"));
+  EXPECT_GT(few.counter("hole_px"), 0);
+}
+
+TEST_F(RayCasting, FoundPlacesLieOnTheSurfaceAndTheRay) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, kSize);
+  const surfaces::SurfaceView view = viewOf(frame);
+  const ExactView exact = exactView(scene.surfaces, surfaces::RootFinder::Clipping, view, kSize, 1e-4);
+  int hits = 0;
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x) {
+      const ExactPixel& pixel = exact.at(x, y);
+      if (!pixel.hit) continue;
+      ++hits;
+      const surfaces::Patch& patch = scene.surfaces.patches[pixel.at.patch];
+      const glm::dvec3 p =
+          surfaces::evaluate(scene.surfaces, patch, pixel.at.at, surfaces::Order::Position).p - view.eye;
+      const double distance = glm::dot(p, view.forward);
+      EXPECT_NEAR(distance, pixel.distance, 1e-5);
+      // Pixel that the point projects to.
+      EXPECT_NEAR((glm::dot(p, view.right) / distance / view.tanHalf.x + 1.0) * 0.5 * kSize.x - 0.5, x, 1e-3);
+      EXPECT_NEAR((1.0 - glm::dot(p, view.up) / distance / view.tanHalf.y) * 0.5 * kSize.y - 0.5, y, 1e-3);
+    }
+  EXPECT_GT(hits, 500);
+}
+
+TEST_F(RayCasting, PatchesOtherThanTrianglesAreRefused) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  EXPECT_THROW(render(scene, "ray_casting/pn_prisms", {}, kSize), Error);
+}
+
+}  // namespace
+}  // namespace limen::techniques

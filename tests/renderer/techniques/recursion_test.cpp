@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/tessellated_surface.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+class RecursionTechniques : public TechniqueTest {
+ protected:
+  static double meanDifference(const Image& a, const Image& b) {
+    double sum = 0.0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x)
+        for (int c = 0; c < 3; ++c) sum += std::abs(double(a.at(x, y, c)) - b.at(x, y, c));
+    return sum / (3.0 * a.width * a.height);
+  }
+};
+
+constexpr glm::ivec2 kSize{128, 96};
+
+TEST_F(RecursionTechniques, ShowWhatAFineTessellationShows) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"}) {
+    const scene::Scene scene = makeScene(name);
+    const int64_t segments = std::string(name) == "curved/teapot" ? 64 : 16;
+    const Rendered fine = render(scene, "tessellation/uniform_fine", {{"segments", segments}}, kSize);
+    for (const char* technique : {"recursion/cpu", "recursion/queues"}) {
+      const Rendered made = render(scene, technique, {{"tolerance_px", 0.1}}, kSize);
+      EXPECT_LT(meanDifference(fine.product, made.product), 2e-3) << name << " " << technique;
+    }
+    const Rendered diced =
+        render(scene, "recursion/queues",
+               {{"flatness", std::string("extent")}, {"tolerance_px", 8.0}, {"grid", int64_t{16}}}, kSize);
+    EXPECT_LT(meanDifference(fine.product, diced.product), 2e-3) << name;
+  }
+}
+
+// The queues in float split as the recursion in double does, but for parts within rounding of the tolerance.
+TEST_F(RecursionTechniques, QueuesMakeThePartsOfTheRecursionInDouble) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"})
+    for (const char* flatness : {"control_to_chord", "control_to_corresponding", "extent"})
+      for (const char* split : {"quarters", "halves"}) {
+        const scene::Scene scene = makeScene(name);
+        // Triangles are split at their sides on the CPU.
+        if (std::string(name) == "curved/double_torus" && std::string(split) == "halves") continue;
+        const Given given = {{"tolerance_px", std::string(flatness) == "extent" ? 8.0 : 0.5},
+                             {"flatness", std::string(flatness)},
+                             {"split", std::string(split)}};
+        const Rendered cpu = render(scene, "recursion/cpu", given, kSize, true);
+        const Rendered queues = render(scene, "recursion/queues", given, kSize, true);
+        EXPECT_EQ(queues.counter("parts_left_out"), 0);
+        EXPECT_GT(cpu.counter("faces"), 50);
+        EXPECT_NEAR(queues.counter("faces"), cpu.counter("faces"), 2 + 0.005 * cpu.counter("faces"))
+            << name << " " << flatness << " " << split;
+        EXPECT_NEAR(queues.counter("parts_tested"), cpu.counter("parts_tested"),
+                    2 + 0.005 * cpu.counter("parts_tested"));
+        EXPECT_EQ(queues.counter("recursion_steps"), cpu.counter("recursion_steps"));
+      }
+}
+
+// Full queues leave patches coarser, and say so; they leave no patch out while there is room for every patch.
+TEST_F(RecursionTechniques, FullQueuesDrawCoarserParts) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered made =
+      render(scene, "recursion/queues", {{"tolerance_px", 0.1}, {"capacity", int64_t{1024}}, {"cull", false}},
+             kSize, true);
+  EXPECT_GT(made.counter("parts_cut_short") + made.counter("parts_left_out"), 0);
+  EXPECT_LE(made.counter("faces"), 256);
+}
+
+TEST_F(RecursionTechniques, TheSurfaceReadBackIsExact) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, kSize);
+  const TechniqueInfo& info = TechniqueRegistry::instance().get("recursion/queues");
+  for (const int64_t grid : {1, 4}) {
+    const auto technique = info.make(ParameterValues(info.parameters, {{"grid", grid}}));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    const auto surface = technique->tessellation(frame);
+    ASSERT_GT(surface->positions.size(), 500U);
+    double most = 0.0;
+    for (size_t i = 0; i < surface->positions.size(); ++i) {
+      const surfaces::Patch& patch = scene.surfaces.patches[surface->patches[i]];
+      const glm::dvec3 exact =
+          surfaces::evaluate(scene.surfaces, patch, surface->parameters[i], surfaces::Order::Position).p;
+      most = std::max(most, glm::length(surface->anchor + glm::dvec3(surface->positions[i]) - exact));
+    }
+    EXPECT_LT(most, 1e-6 * gpuScene.diagonal());
+  }
+}
+
+}  // namespace
+}  // namespace limen::techniques
