@@ -9,6 +9,7 @@
 
 namespace limen::surfaces {
 namespace {
+namespace algebra {
 
 using std::sqrt;
 
@@ -35,9 +36,12 @@ Interval mul(Interval a, Interval b) {
 }
 Interval sqr(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
-  return a.low <= 0.0 && a.high >= 0.0 ? widened(0.0, std::max(p, q)) : widened(std::min(p, q), std::max(p, q));
+  return a.low <= 0.0 && a.high >= 0.0 ? widened(0.0, std::max(p, q))
+                                       : widened(std::min(p, q), std::max(p, q));
 }
-Interval scale(double k, Interval a) { return k >= 0.0 ? widened(k * a.low, k * a.high) : widened(k * a.high, k * a.low); }
+Interval scale(double k, Interval a) {
+  return k >= 0.0 ? widened(k * a.low, k * a.high) : widened(k * a.high, k * a.low);
+}
 Interval shift(Interval a, double k) { return widened(a.low + k, a.high + k); }
 
 /// Value and derivative along the ray.
@@ -59,12 +63,18 @@ LIMEN_ALGEBRAIC(Sloped)
 template <class Number>
 Number valueAt(Algebraic surface, Number x, Number y, Number z) {
   switch (surface) {
-    case Algebraic::Sphere: return sphereValue(x, y, z);
-    case Algebraic::Hyperboloid: return hyperboloidValue(x, y, z);
-    case Algebraic::Torus: return torusValue(x, y, z);
-    case Algebraic::Goursat: return goursatValue(x, y, z);
-    case Algebraic::Heart: return heartValue(x, y, z);
-    case Algebraic::BarthDecic: break;
+    case Algebraic::Sphere:
+      return sphereValue(x, y, z);
+    case Algebraic::Hyperboloid:
+      return hyperboloidValue(x, y, z);
+    case Algebraic::Torus:
+      return torusValue(x, y, z);
+    case Algebraic::Goursat:
+      return goursatValue(x, y, z);
+    case Algebraic::Heart:
+      return heartValue(x, y, z);
+    case Algebraic::BarthDecic:
+      break;
   }
   return barthDecicValue(x, y, z);
 }
@@ -77,42 +87,55 @@ Sloped enclosure(Algebraic surface, const Ray& ray, Interval t) {
   return valueAt(surface, coordinate(0), coordinate(1), coordinate(2));
 }
 
+}  // namespace algebra
 }  // namespace
 
 int degreeOf(Algebraic surface) {
   switch (surface) {
     case Algebraic::Sphere:
-    case Algebraic::Hyperboloid: return 2;
+    case Algebraic::Hyperboloid:
+      return 2;
     case Algebraic::Torus:
-    case Algebraic::Goursat: return 4;
-    case Algebraic::Heart: return 6;
-    case Algebraic::BarthDecic: break;
+    case Algebraic::Goursat:
+      return 4;
+    case Algebraic::Heart:
+      return 6;
+    case Algebraic::BarthDecic:
+      break;
   }
   return 10;
 }
 
 double radiusOf(Algebraic surface) {
   switch (surface) {
-    case Algebraic::Sphere: return 1.05;
-    case Algebraic::Torus: return 3.05;
-    case Algebraic::Goursat: return 2.8;  // 1 + sqrt(1 + 1 / 3) is its largest squared coordinate
-    case Algebraic::Heart: return 1.5;
+    case Algebraic::Sphere:
+      return 1.05;
+    case Algebraic::Torus:
+      return 3.05;
+    case Algebraic::Goursat:
+      return 2.8;  // 1 + sqrt(1 + 1 / 3) is its largest squared coordinate
+    case Algebraic::Heart:
+      return 1.5;
     case Algebraic::Hyperboloid:
-    case Algebraic::BarthDecic: break;
+    case Algebraic::BarthDecic:
+      break;
   }
   return 2.0;
 }
 
-double valueOf(Algebraic surface, const glm::dvec3& at) { return valueAt(surface, at.x, at.y, at.z); }
+double valueOf(Algebraic surface, const glm::dvec3& at) {
+  return algebra::valueAt(surface, at.x, at.y, at.z);
+}
 
 std::optional<double> firstRoot(Algebraic surface, const Ray& ray, double from, double to) {
+  using algebra::Interval;
   constexpr double kWidth = 1e-10;
   std::vector<Interval> stack = {{from, to}};
   const auto at = [&](double t) { return valueOf(surface, ray.origin + t * ray.direction); };
   while (!stack.empty()) {
     const Interval t = stack.back();
     stack.pop_back();
-    const Sloped f = enclosure(surface, ray, t);
+    const algebra::Sloped f = algebra::enclosure(surface, ray, t);
     if (f.value.low > 0.0 || f.value.high < 0.0) continue;
     if (f.slope.low > 0.0 || f.slope.high < 0.0) {
       // Monotonous: a root if the ends differ.

@@ -12,14 +12,14 @@ namespace {
 using glm::dvec2;
 using glm::dvec4;
 
-struct ClippedRange {
+struct ClipRange {
   double low = 0.0, high = 1.0;
 };
 
 /// Where the hull of the points (i / n, bottom[i]) and (i / n, top[i]) meets zero; none if nowhere.
-std::optional<ClippedRange> hullCrossing(int n, std::span<const double> bottom, std::span<const double> top,
-                                     double rounding) {
-  ClippedRange out{2.0, -1.0};
+std::optional<ClipRange> hullCrossing(int n, std::span<const double> bottom, std::span<const double> top,
+                                      double rounding) {
+  ClipRange out{2.0, -1.0};
   const auto add = [&](double t) { out.low = std::min(out.low, t), out.high = std::max(out.high, t); };
   for (int i = 0; i <= n; ++i) {
     const auto at = static_cast<size_t>(i);
@@ -65,7 +65,7 @@ class Clipping {
       }
       const int axis = (alongU ? width.x > settings_.width : width.y <= settings_.width) ? 0 : 1;
       ++counts_.steps;
-      const std::optional<ClippedRange> left = clipped(axis);
+      const std::optional<ClipRange> left = clipped(axis);
       if (!left) return;
       const double from = part.low[axis];
       part.low[axis] = from + left->low * width[axis], part.high[axis] = from + left->high * width[axis];
@@ -86,7 +86,7 @@ class Clipping {
   }
 
   /// Share of the part with the control points points_ that may contain roots along `axis`.
-  std::optional<ClippedRange> clipped(int axis) const {
+  std::optional<ClipRange> clipped(int axis) const {
     const int m = patch_.degreeU, n = patch_.degreeV;
     const auto at = [&](int i, int j) { return dvec2(points_[static_cast<size_t>(i + (m + 1) * j)]); };
     // The line through the ray along the other axis: distances from it depend on this axis most.

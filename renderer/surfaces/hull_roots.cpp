@@ -13,7 +13,7 @@ using glm::dvec3;
 using glm::dvec4;
 
 /// A part of the domain: corners of a triangle in barycentric coordinates, or a rectangle.
-struct Part {
+struct HullPart {
   TrianglePart triangle = kWholeTriangle;
   RectanglePart rectangle;
   int depth = 0;
@@ -33,11 +33,11 @@ class HullSearch {
   }
 
   std::vector<RayRoot> run() {
-    std::vector<Part> stack = {Part{}};
+    std::vector<HullPart> stack = {HullPart{}};
     std::vector<RayRoot> roots;
     int64_t looked = 0;
     while (!stack.empty()) {
-      const Part part = stack.back();
+      const HullPart part = stack.back();
       stack.pop_back();
       ++counts_.steps;
       std::array<dvec4, kMostPoints> points;
@@ -78,7 +78,7 @@ class HullSearch {
     });
   }
 
-  void split(const Part& part, std::vector<Part>& stack) const {
+  void split(const HullPart& part, std::vector<HullPart>& stack) const {
     if (patch_.domain == Domain::Triangle) {
       for (const TrianglePart& quarter : quartersOf(part.triangle))
         stack.push_back({quarter, {}, part.depth + 1});
@@ -92,7 +92,7 @@ class HullSearch {
       stack.push_back({kWholeTriangle, quarter, part.depth + 1});
   }
 
-  void report(const Part& part, std::vector<RayRoot>& roots) const {
+  void report(const HullPart& part, std::vector<RayRoot>& roots) const {
     dvec2 at = 0.5 * (part.rectangle.low + part.rectangle.high);
     if (patch_.domain == Domain::Triangle)
       at = dvec2(part.triangle[0] + part.triangle[1] + part.triangle[2]) / 3.0;

@@ -181,6 +181,26 @@ TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
   EXPECT_EQ(made.counter("tessellated_vertices"), 360);
 }
 
+/// 32,000 patches at half a pixel take more than a million vertices.
+TEST_F(Tessellation, BuffersHoldWhatTheFirstViewTakes) {
+  const Rendered made =
+      render(makeScene("curved/spheres"), "tessellation/compute",
+             {{"factors", std::string("deviation")}, {"factors.tolerance_px", 0.25}}, {256, 192}, true);
+  EXPECT_EQ(made.counter("patches_left_out"), 0);
+  EXPECT_GT(made.counter("tessellated_vertices"), 900000);
+}
+
+/// 92,256 patches: the default of 64 segments would be 390 million vertices.
+TEST_F(Tessellation, AReferenceThatNoBufferHoldsIsRefused) {
+  const scene::Scene scene = makeScene("curved/herd");
+  try {
+    render(scene, "tessellation/uniform_fine", {}, {16, 12});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("use at most 25"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Tessellation, BothFormsAndBothScansMakeTheSamePicture) {
   const scene::Scene teapot = makeScene("curved/teapot");
   const Rendered first = render(teapot, "tessellation/compute", {}, {96, 72});

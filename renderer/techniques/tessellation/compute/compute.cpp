@@ -12,6 +12,8 @@
 // - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
 #include <epoxy/gl.h>
 
+#include <cmath>
+
 #include "renderer/compute/prefix_sum.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
@@ -37,8 +39,7 @@ struct EvaluateDirectly {
 /// SC-72.
 struct EvaluateByDifferences {
   static constexpr const char *kKind = "forward_differences",
-                              *kSummary =
-                                  "rows of samples by forward differences, of bicubic patches";
+                              *kSummary = "rows of samples by forward differences, of bicubic patches";
   int restart = 64;
   static const SettingsTable<EvaluateByDifferences>& table() {
     static const SettingsTable<EvaluateByDifferences> kTable = {
@@ -57,6 +58,9 @@ constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
   return {{{{SharedSides::Copied, "copied"}, {SharedSides::Evaluated, "evaluated"}}}};
 }
 
+constexpr int64_t kIndicesPerVertex = 6;
+constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
+
 struct ComputeTessellationSettings {
   FactorSettings tessellation;
   SlotForm form = SlotForm::VertexParallel;
@@ -65,7 +69,7 @@ struct ComputeTessellationSettings {
   SharedSides sides = SharedSides::Evaluated;
   compute::ScanForm scan = compute::ScanForm::Auto;
   frame::Raster raster = frame::Raster::Auto;
-  int64_t capacity = 1 << 20;
+  int64_t capacity = 0;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
     using S = ComputeTessellationSettings;
@@ -86,9 +90,10 @@ struct ComputeTessellationSettings {
          "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
-         {4, 1 << 26},
+         {0, kMostVertices},
          "vertices",
-         "Vertices that the buffers hold; indices: six times as many"},
+         "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
+         "Patches that do not fit are left out and counted"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -102,8 +107,6 @@ struct ComputeTessellationSettings {
                   "use spacing: integer or dyadic, or another form and direct evaluation");
   }
 };
-
-constexpr int64_t kIndicesPerVertex = 6;
 
 class ComputeTessellation : public Technique {
  public:
@@ -142,8 +145,9 @@ class ComputeTessellation : public Technique {
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
-    vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
-    indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
+    capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
+    vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
+    indices_.emplace(capacity_ * kIndicesPerVertex * 4, nullptr);
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
@@ -161,8 +165,8 @@ class ComputeTessellation : public Technique {
       count_->bindStorage(kTriangleCountBuffer);
       totalsProgram_->use();
       totalsProgram_->set("patchCount", patches_->count());
-      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
-      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
+      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -287,6 +291,16 @@ class ComputeTessellation : public Technique {
     glVertexArrayElementBuffer(vertexArray_, indices_->id());
   }
 
+  /// Waits for the GPU.
+  int64_t capacityFor(frame::Frame& frame) {
+    factors_->run(frame);
+    scan_->run(factors_->counts(), *offsets_, patches_->count());
+    const auto needed = offsets_->read<glm::uvec2>(int64_t{patches_->count()} * sizeof(glm::uvec2), 1)[0];
+    const int64_t slots = int64_t{needed.y} * (lists_ ? 3 : 1);
+    const int64_t vertices = std::max<int64_t>(needed.x, (slots + kIndicesPerVertex - 1) / kIndicesPerVertex);
+    return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
+  }
+
   /// `perPatch`: invocations that a patch takes, unless each slot has one.
   void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups,
             uint32_t perPatch) {
@@ -333,7 +347,8 @@ class ComputeTessellation : public Technique {
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
                     *drawProgram_ = nullptr, *copyProgram_ = nullptr;
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
-  bool lists_ = false;  // indices of single triangles, for ComputeRaster; otherwise strips
+  bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
+  int64_t capacity_ = 0;  // vertices
   uint32_t vertexArray_ = 0;
 };
 
@@ -361,6 +376,13 @@ class UniformFine : public Technique {
     const int64_t side = settings_.segments + 1,
                   patches = static_cast<int64_t>(frame.scene().surfaces.patches.size());
     all.capacity = std::max<int64_t>(patches * side * side, 4);
+    if (all.capacity > kMostVertices)
+      throw Error(
+          std::to_string(patches) + " patches with " + std::to_string(settings_.segments) + " segments are " +
+              std::to_string(all.capacity) + " vertices, more than the " + std::to_string(kMostVertices) +
+              " that buffers take",
+          "segments",
+          "use at most " + std::to_string(int(std::sqrt(double(kMostVertices) / double(patches))) - 1));
     all.shading = settings_.shading;
     fine_.emplace(all);
     fine_->prepare(frame);

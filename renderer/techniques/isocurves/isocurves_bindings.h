@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the shaders of isocurves are bound to, beside the patches of tessellation_bindings.h. For C++ and
+// GLSL.
+#pragma once
+
+#include "renderer/gl/shader_shared.h"
+
+#ifdef __cplusplus
+namespace limen::techniques {
+#endif
+
+const int kIsocurveGroup = 64;
+const int kMostIsocurves = 4096;  // of a patch, and points on each
+
+const uint kIsocurveDepthImage = 0u;  // reversed depth as bits, 0: nothing
+const uint kIsocurveIdsImage = 1u;
+const uint kIsocurveNormalsImage = 2u;
+const uint kIsocurveCountsImage = 3u;  // points that fell into the pixel
+
+#ifdef __cplusplus
+}  // namespace limen::techniques
+#endif

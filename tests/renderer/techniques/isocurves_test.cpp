@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+class Isocurves : public TechniqueTest {};
+constexpr glm::ivec2 kIsocurvesSize{96, 72};
+
+// With two points a pixel in both directions no pixel inside is left empty; those at silhouettes are filled
+// if any part of them is covered, not their middle alone.
+TEST_F(Isocurves, LeaveNoHoleAtHalfAPixel) {
+  for (const char* name : {"curved/teapot", "curved/sheet"})
+    for (const char* stepping : {"uniform", "adaptive"}) {
+      const scene::Scene scene = makeScene(name);
+      const Rendered made = render(scene, "isocurves/forward_differences",
+                                   {{"stepping", std::string(stepping)}}, kIsocurvesSize, true);
+      EXPECT_GT(made.counter("surface_px"), 500) << name;
+      EXPECT_EQ(made.counter("hole_px"), 0) << name << " " << stepping;
+      EXPECT_LT(made.counter("missed_px"), 0.01 * made.counter("surface_px")) << name << " " << stepping;
+      EXPECT_LT(made.counter("wrong_place_px"), 0.05 * made.counter("surface_px")) << name << " " << stepping;
+    }
+}
+
+TEST_F(Isocurves, AdaptiveStepsTakeFewerPoints) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered uniform = render(scene, "isocurves/forward_differences", {}, kIsocurvesSize, true);
+  const Rendered adaptive = render(scene, "isocurves/forward_differences",
+                                   {{"stepping", std::string("adaptive")}}, kIsocurvesSize, true);
+  EXPECT_LT(adaptive.counter("points_per_px"), 0.9 * uniform.counter("points_per_px"));
+}
+
+// Four pixels apart, curves leave most pixels between them empty.
+TEST_F(Isocurves, HolesAreCounted) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered coarse =
+      render(scene, "isocurves/forward_differences", {{"spacing_px", 4.0}}, kIsocurvesSize, true);
+  EXPECT_GT(coarse.counter("hole_px"), 0.1 * coarse.counter("surface_px"));
+}
+
+}  // namespace
+}  // namespace limen::techniques
