@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/soft_shadows/occluder_kinds.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limen::techniques {
 namespace {
 
@@ -52,6 +55,17 @@ const SettingsTable<SearchCells>& SearchCells::table() {
        "default 12 x 12 of a budget of 256",
        "own form"}};
   return kTable;
+}
+
+void SearchCells::configure(const gl::Program& program) const {
+  program.set("middleWidth", static_cast<float>(middle));
+  program.set("shareRoot", static_cast<float>(std::sqrt(share)));
+  program.set("texelsSpread", static_cast<uint32_t>(std::lround(spread * double{1 << 16})));
+  program.set("leastWidth", static_cast<float>(leastWidth));
+}
+
+int allowedPerAxis(int64_t budget) {
+  return budget == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget)))));
 }
 
 const SettingsTable<Micropatches>& Micropatches::table() {

@@ -115,7 +115,11 @@ struct SearchCells {
   double spread = 0.6;      ///< of the texels that stand for cells, in widths of a cell about its middle
   double share = 0.6;       ///< of the budget, up to 1
   static const SettingsTable<SearchCells>& table();
+  /// The uniforms of cell_grid.glsl, and leastWidth.
+  void configure(const gl::Program& program) const;
 };
+/// The root of a budget, rounded down, as shaders take it; 0: no limit.
+int allowedPerAxis(int64_t budget);
 using DivisionSettings = std::variant<AutoDivision, LevelDivision, SearchCells>;
 
 /// A kind of micro-occluder as an alternative of a technique's settings.

@@ -2,7 +2,6 @@
 #include "renderer/techniques/soft_shadows/occluder_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "renderer/frame/sampled_pyramid.h"
@@ -79,11 +78,7 @@ void OccluderSearch::configure(const gl::Program& program) const {
   program.set("levels", pyramidLevels_);
   program.set("maxIterations", maxIterations_);
   program.set("refinements", refinements_);
-  program.set("middleWidth", cells_ ? static_cast<float>(cells_->middle) : 1.0F);
-  program.set("shareRoot", cells_ ? static_cast<float>(std::sqrt(cells_->share)) : 1.0F);
-  program.set("texelsSpread",
-              static_cast<uint32_t>(std::lround(cells_ ? cells_->spread * double{1 << 16} : 0.0)));
-  program.set("leastWidth", cells_ ? static_cast<float>(cells_->leastWidth) : 0.0F);
+  if (cells_) cells_->configure(program);
   program.set("widestGap", static_cast<float>(occluders_.gapWidth));
   program.set("roughQueries", roughQueries(structure_));
   program.set("baseLevel", baseLevel_);
@@ -93,8 +88,7 @@ void OccluderSearch::configure(const gl::Program& program) const {
     program.set(("layerTangentLow" + layer).c_str(), glm::vec2(frusta_[i].low));
     program.set(("layerTangentSize" + layer).c_str(), glm::vec2(frusta_[i].high - frusta_[i].low));
   }
-  program.set("budgetPerAxis",
-              budget_ == 0 ? 1 << 14 : std::max(1, static_cast<int>(std::floor(std::sqrt(double(budget_))))));
+  program.set("budgetPerAxis", allowedPerAxis(budget_));
 }
 
 int64_t OccluderSearch::structureBytes() const {

@@ -29,24 +29,26 @@ vec4 spacedPoint(uint shape, ivec4 s, int spacing, ivec4 units) {
               spacedPlace(spacing, alongU, s.y - s.x, s.y), spacedPlace(spacing, alongV, s.w - s.z, s.w));
 }
 
+// bezierTriangle(3, at, 1) without loops.
+vec4 quadraticTriangleSum(vec3 at, vec4 a, vec4 b, vec4 c, vec4 d, vec4 e, vec4 f) {
+  return (a * (at.x * at.x) + d * (at.y * at.y) + f * (at.z * at.z)) +
+         2.0 * (b * (at.x * at.y) + e * (at.y * at.z) + c * (at.x * at.z));
+}
+BezierJet cubicTriangleJet(vec4 at) {
+  vec4 c[10];
+  for (int k = 0; k < 10; ++k) c[k] = bezierPoint(k);
+  const vec4 u = quadraticTriangleSum(at.xyz, c[0] - c[2], c[1] - c[4], c[2] - c[5], c[3] - c[7], c[4] - c[8], c[5] - c[9]);
+  const vec4 v = quadraticTriangleSum(at.xyz, c[1] - c[2], c[3] - c[4], c[4] - c[5], c[6] - c[7], c[7] - c[8], c[8] - c[9]);
+  return BezierJet(cubicTriangleSum(at, c), 3.0 * u, 3.0 * v, vec4(0.0), vec4(0.0), vec4(0.0));
+}
+
 BezierJet jetAt(TessellatedPatch patch_, vec4 at) {
   const uint shape = shapeOf(patch_);
   patchFirst = int(patch_.firstPoint);
   if (isBicubic(shape)) return bezierBicubic(at);
   if (isRectangle(shape)) return bezierRectangle(degreeU(shape), degreeV(shape), at, 1);
+  if (degreeU(shape) == 3) return cubicTriangleJet(at);
   return bezierTriangle(degreeU(shape), at, 1);
-}
-
-// The value alone; the bits of jetAt().
-vec4 pointAt(TessellatedPatch patch_, vec4 at) {
-  const uint shape = shapeOf(patch_);
-  patchFirst = int(patch_.firstPoint);
-  if (!isRectangle(shape) && degreeU(shape) == 3) {
-    vec4 c[10];
-    for (int k = 0; k < 10; ++k) c[k] = bezierPoint(k);
-    return cubicTriangleSum(at, c);
-  }
-  return jetAt(patch_, at).p;
 }
 
 vec3 positionOf(vec4 point) {
@@ -66,7 +68,9 @@ vec3 acrossTangents(BezierJet jet, out bool degenerate) {
 #endif
   const vec3 n = cross(a, b);
   const float aa = dot(a, a), bb = dot(b, b), least = 1e-10;
-  degenerate = !(dot(n, n) > least * aa * bb && aa > least * bb && bb > least * aa && aa > 0.0);
+  // What rounding leaves of a tangent of length 0: points lie far from the anchor, compared with the patch's size.
+  const float noise = 2e-6 * abs(jet.p.w) * length(jet.p.xyz);
+  degenerate = !(dot(n, n) > least * aa * bb && aa > least * bb && bb > least * aa && min(aa, bb) > noise * noise);
   return n;
 }
 
@@ -126,7 +130,7 @@ TessellatedVertex surfaceVertex(TessellatedPatch patch_, vec4 at) {
   const int field = normalDegree(shapeOf(patch_));
   if (field > 0) {
     const vec3 normal = fieldNormal(patch_, field, at);
-    if (dot(normal, normal) > 1e-20) return vertexWith(patch_, pointAt(patch_, at), normal, kRungField);
+    if (dot(normal, normal) > 1e-20) return vertexWith(patch_, jetAt(patch_, at).p, normal, kRungField);
   }
   return vertexOf(patch_, at, jetAt(patch_, at));
 }

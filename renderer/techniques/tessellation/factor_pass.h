@@ -84,7 +84,10 @@ class FactorPass {
   void run(frame::Frame& frame) const;
 
   const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer: PatchFactors
-  const gl::Buffer& counts() const { return counts_; }    ///< uvec2 per patch, and one more
+  const gl::Buffer& ownFactors() const {
+    return own_;
+  }  ///< kOwnFactorsBuffer, before neighbours are looked at
+  const gl::Buffer& counts() const { return counts_; }  ///< uvec2 per patch, and one more
   int64_t bytes() const { return own_.bytes() + factors_.bytes() + counts_.bytes() + bounds_.bytes(); }
 
  private:

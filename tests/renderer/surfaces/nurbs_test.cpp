@@ -9,6 +9,7 @@
 #include "renderer/scene/curved/nurbs_solids.h"
 #include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/neighbours.h"
+#include "renderer/surfaces/nurbs_point.h"
 #include "tests/renderer/surfaces/bezier_oracle.h"
 
 namespace limen::surfaces {
@@ -83,6 +84,40 @@ TEST(Nurbs, PatchesAreThoseOfTheBasisFunctions) {
         SCOPED_TRACE(testing::Message() << m << ' ' << n << (clamped ? " clamped" : ""));
         expectSame(surface);
       }
+}
+
+/// SC-16 and SC-17: at any parameters, the last knot and beyond included.
+TEST(NurbsPoint, IsThatOfTheBasisFunctions) {
+  scene::Random random(15);
+  for (int m = 1; m <= 5; ++m)
+    for (int n = 1; n <= 5; ++n) {
+      NurbsSurface surface;
+      surface.degreeU = m, surface.degreeV = n;
+      surface.knotsU = randomKnots(random, m, m + 5, true);
+      surface.knotsV = randomKnots(random, n, n + 4, false);
+      for (int k = 0; k < surface.pointsU() * surface.pointsV(); ++k)
+        surface.points.push_back(oracle::randomPoint(random, 5.0));
+      const double low = surface.knotsU[size_t(m)], high = surface.knotsU[size_t(surface.pointsU())],
+                   bottom = surface.knotsV[size_t(n)], top = surface.knotsV[size_t(surface.pointsV())];
+      std::vector<double> us, vs;
+      for (int k = 0; k < 20; ++k)
+        us.push_back(random.uniform(low, high)), vs.push_back(random.uniform(bottom, top));
+      us.push_back(low), vs.push_back(bottom);
+      const std::vector<glm::dvec4> grid = nurbsGrid(surface, us, vs);
+      for (size_t j = 0; j < vs.size(); ++j)
+        for (size_t i = 0; i < us.size(); ++i) {
+          const glm::dvec4 p = nurbsPoint(surface, us[i], vs[j]);
+          EXPECT_LT(glm::length(glm::dvec3(p) / p.w - coxDeBoor(surface, us[i], vs[j])), 1e-11);
+          EXPECT_EQ(p, grid[i + us.size() * j]);
+        }
+      // The basis functions are 0 at the last knot; the patches are not.
+      const PatchSet set = nurbsPatches(surface);
+      const glm::dvec4 last = nurbsPoint(surface, high, top), beyond = nurbsPoint(surface, high + 1.0, top);
+      EXPECT_LT(glm::length(glm::dvec3(last) / last.w -
+                            evaluate(set, set.patches.back(), rectanglePoint(1.0, 1.0)).p),
+                1e-11);
+      EXPECT_EQ(last, beyond);
+    }
 }
 
 TEST(Nurbs, ShippedSurfacesAreThemselves) {

@@ -111,9 +111,12 @@ TEST_F(PeeledTest, SecondLayerRestoresTheUmbraBelowAHoveringBox) {
   // rim of the top is thrown to 1.6 (0.5 / 62) m of the 2 m, on both sides of both axes.
   const scene::Scene scene = makeScene("box_under_light", {{"clearance", 0.8}, {"box_height", 1.2}});
   const glm::dmat4 fromLight = glm::inverse(scene.lights[0].toLightSpace());
-  for (const int64_t layers : {1, 2}) {
-    const Rendered rendered =
-        render(scene, "soft_shadows/peeled", {{"resolution", int64_t{kSide}}, {"layers", layers}}, {64, 48});
+  // Cells of one surface leave out nothing between them.
+  for (const auto& [layers, division] :
+       {std::pair(int64_t{1}, "texels"), {int64_t{2}, "texels"}, {int64_t{2}, "cells"}}) {
+    const Rendered rendered = render(
+        scene, "soft_shadows/peeled",
+        {{"resolution", int64_t{kSide}}, {"layers", layers}, {"division", std::string(division)}}, {64, 48});
     int umbra = 0;
     for (size_t i = 0; i < rendered.product.pixels(); ++i) {
       const float* receiver = rendered.receivers.data.data() + 4 * i;
@@ -127,6 +130,39 @@ TEST_F(PeeledTest, SecondLayerRestoresTheUmbraBelowAHoveringBox) {
         EXPECT_LT(rendered.product.data[i], 1e-3F);
     }
     EXPECT_GT(umbra, 10);
+  }
+}
+
+/// Without a limit every cell is one texel; with one there are no more than it allows, and more of them err
+/// less. The search areas of these scenes have up to some 20 x 20 texels.
+TEST_F(PeeledTest, CellsOfABudgetApproachTheTexels) {
+  for (const char* name : {"two_boxes", "sphere_grid"}) {
+    const scene::Scene scene = makeScene(name);
+    const auto of = [&](Given given) {
+      given.insert({{"resolution", int64_t{256}}, {"layers", int64_t{2}}});
+      return render(scene, "soft_shadows/peeled", given, {61, 45}, true);
+    };
+    const auto cells = [&](int64_t budget, double share) {
+      return of({{"division", std::string("cells")},
+                 {"division.budget", budget},
+                 {"division.share", share},
+                 {"division.least_width", 0.0}});
+    };
+    const Rendered texels = of({}), all = cells(0, 0.5), quarter = cells(64, 0.25), whole = cells(64, 1.0);
+    const auto meanSquare = [&](const Rendered& other) {
+      double sum = 0.0;
+      for (size_t i = 0; i < texels.product.data.size(); ++i)
+        sum += std::pow(double(other.product.data[i]) - double(texels.product.data[i]), 2);
+      return sum / static_cast<double>(texels.product.data.size());
+    };
+    // A bound of an area may round to the other side of a texel's edge.
+    EXPECT_LT(meanSquare(all), 1e-8) << name;
+    EXPECT_NEAR(all.counter("micro_occluders_per_px"), texels.counter("micro_occluders_per_px"), 1e-3)
+        << name;
+    EXPECT_LE(quarter.counter("micro_occluders_per_px"), 16.0) << name;
+    EXPECT_LE(whole.counter("micro_occluders_per_px"), 64.0) << name;
+    EXPECT_GT(meanSquare(quarter), meanSquare(whole)) << name;
+    EXPECT_GT(meanSquare(whole), 0.0) << name;
   }
 }
 

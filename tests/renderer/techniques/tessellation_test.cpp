@@ -5,6 +5,7 @@
 #include "renderer/frame/shaded.h"
 #include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/factors.h"
+#include "renderer/surfaces/other_patterns.h"
 #include "renderer/surfaces/surface_errors.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -180,6 +181,15 @@ TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
   EXPECT_EQ(made.counter("tessellated_vertices"), 360);
 }
 
+/// 32,000 patches at half a pixel take more than a million vertices.
+TEST_F(Tessellation, BuffersHoldWhatTheFirstViewTakes) {
+  const Rendered made =
+      render(makeScene("curved/spheres"), "tessellation/compute",
+             {{"factors", std::string("deviation")}, {"factors.tolerance_px", 0.25}}, {256, 192}, true);
+  EXPECT_EQ(made.counter("patches_left_out"), 0);
+  EXPECT_GT(made.counter("tessellated_vertices"), 900000);
+}
+
 /// 92,256 patches: the default of 64 segments would be 390 million vertices.
 TEST_F(Tessellation, AReferenceThatNoBufferHoldsIsRefused) {
   const scene::Scene scene = makeScene("curved/herd");
@@ -244,6 +254,47 @@ TEST_F(Tessellation, AdaptedUniformPatternsShowTheSurface) {
       EXPECT_LT(meanDifference(fine.product, made.product), 3e-3) << patterns << " " << draw;
       EXPECT_GT(made.counter("tessellated_triangles"), exact.counter("tessellated_triangles")) << patterns;
     }
+}
+
+/// On a closed surface strips close every gap: no pixel far from the fine surface's colour is left.
+TEST_F(Tessellation, StripsCloseTheGapsBetweenLevels) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const Image fine =
+      render(torus, "tessellation/uniform_fine", {{"segments", int64_t{16}}}, {320, 240}).product;
+  const auto wrongPixels = [&](const Image& image) {
+    int wrong = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+      for (int x = 1; x + 1 < image.width; ++x) {
+        // Nearest of the pixels around: silhouettes may move by one.
+        double nearest = 1e9;
+        for (int b = y - 1; b <= y + 1; ++b)
+          for (int a = x - 1; a <= x + 1; ++a) {
+            double difference = 0.0;
+            for (int c = 0; c < 3; ++c) difference += std::abs(double(image.at(x, y, c)) - fine.at(a, b, c));
+            nearest = std::min(nearest, difference);
+          }
+        wrong += nearest > 0.1;
+      }
+    return wrong;
+  };
+  // A tolerance of 4 px makes gaps wide enough to be seen. Silhouettes of so coarse a surface lie elsewhere
+  // too: no more than those of one that has no gaps in the first place.
+  const Given coarse = {{"factors", std::string("deviation")}, {"factors.tolerance_px", 4.0}};
+  Given whole = coarse;
+  whole.emplace("spacing", std::string("dyadic"));
+  const int elsewhere = wrongPixels(render(torus, "tessellation/compute", whole, {320, 240}).product);
+  for (const bool batched : {true, false}) {
+    Given given = coarse;
+    given.emplace("batched", batched);
+    const Rendered closed = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    given.emplace("strips", false);
+    const Rendered gaps = render(torus, "tessellation/connected_patterns", given, {320, 240}, true);
+    EXPECT_GT(closed.counter("sides_stitched"), 20);
+    EXPECT_GT(closed.counter("strip_triangles"), 2 * closed.counter("sides_stitched"));
+    EXPECT_EQ(gaps.counter("strip_triangles"), 0);
+    EXPECT_GT(wrongPixels(gaps.product), wrongPixels(closed.product));
+    EXPECT_LE(wrongPixels(closed.product), elsewhere);
+  }
 }
 
 /// The surface that a technique makes in one frame.
@@ -342,6 +393,27 @@ TEST_F(TessellatedSurfaces, BoundsMadeOnceKeepTheToleranceToo) {
   // A box is nearer to the eye than its points: more segments, if few.
   EXPECT_GE(once->positions.size(), every->positions.size());
   EXPECT_LT(double(once->positions.size()), 1.3 * double(every->positions.size()));
+}
+
+/// The generator of concentric patterns against the driver's own tessellator, for all factors of two scenes.
+TEST_F(TessellatedSurfaces, TheDriversTessellatorMakesConcentricPatterns) {
+  for (const char* name : {"curved/double_torus", "curved/sheet"}) {
+    const scene::Scene scene = makeScene(name);
+    const auto surface = made(scene, {});
+    size_t expected = 0;
+    for (size_t i = 0; i < surface->factors.size(); ++i) {
+      const surfaces::Factors& f = surface->factors[i];
+      if (f[0] == 0) continue;
+      const surfaces::Domain domain = scene.surfaces.patches[i].domain;
+      const glm::ivec2 inner = domain == surfaces::Domain::Rectangle
+                                   ? glm::ivec2(std::min(f[0], f[2]), std::min(f[1], f[3]))
+                                   : glm::ivec2(std::max({f[0], f[1], f[2]}));
+      expected += surfaces::concentricPattern(domain, f, inner).triangles.size();
+    }
+    const Rendered driver = render(scene, "tessellation/hardware", {}, {160, 120}, true);
+    EXPECT_GT(expected, 1000U) << name;
+    EXPECT_EQ(driver.counter("tessellated_triangles"), double(expected)) << name;
+  }
 }
 
 /// PN triangles: bounds hold, the estimate of 9/4 asks for fewer.

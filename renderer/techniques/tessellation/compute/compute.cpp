@@ -69,7 +69,7 @@ struct ComputeTessellationSettings {
   SharedSides sides = SharedSides::Evaluated;
   compute::ScanForm scan = compute::ScanForm::Auto;
   frame::Raster raster = frame::Raster::Auto;
-  int64_t capacity = 1 << 20;
+  int64_t capacity = 0;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
     using S = ComputeTessellationSettings;
@@ -90,9 +90,10 @@ struct ComputeTessellationSettings {
          "How triangles become pixels: as strips by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
-         {4, kMostVertices},
+         {0, kMostVertices},
          "vertices",
-         "Vertices that the buffers hold; indices: six times as many"},
+         "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
+         "Patches that do not fit are left out and counted"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -144,8 +145,9 @@ class ComputeTessellation : public Technique {
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
-    vertices_.emplace(settings_.capacity * int64_t{sizeof(TessellatedVertex)}, nullptr);
-    indices_.emplace(settings_.capacity * kIndicesPerVertex * 4, nullptr);
+    capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
+    vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
+    indices_.emplace(capacity_ * kIndicesPerVertex * 4, nullptr);
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
@@ -163,8 +165,8 @@ class ComputeTessellation : public Technique {
       count_->bindStorage(kTriangleCountBuffer);
       totalsProgram_->use();
       totalsProgram_->set("patchCount", patches_->count());
-      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(settings_.capacity));
-      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(settings_.capacity * kIndicesPerVertex));
+      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
+      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -289,6 +291,16 @@ class ComputeTessellation : public Technique {
     glVertexArrayElementBuffer(vertexArray_, indices_->id());
   }
 
+  /// Waits for the GPU.
+  int64_t capacityFor(frame::Frame& frame) {
+    factors_->run(frame);
+    scan_->run(factors_->counts(), *offsets_, patches_->count());
+    const auto needed = offsets_->read<glm::uvec2>(int64_t{patches_->count()} * sizeof(glm::uvec2), 1)[0];
+    const int64_t slots = int64_t{needed.y} * (lists_ ? 3 : 1);
+    const int64_t vertices = std::max<int64_t>(needed.x, (slots + kIndicesPerVertex - 1) / kIndicesPerVertex);
+    return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
+  }
+
   /// `perPatch`: invocations that a patch takes, unless each slot has one.
   void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups,
             uint32_t perPatch) {
@@ -335,7 +347,8 @@ class ComputeTessellation : public Technique {
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
                     *drawProgram_ = nullptr, *copyProgram_ = nullptr;
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
-  bool lists_ = false;  // indices of single triangles, for ComputeRaster; otherwise strips
+  bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
+  int64_t capacity_ = 0;  // vertices
   uint32_t vertexArray_ = 0;
 };
 
