@@ -22,6 +22,7 @@ struct Part {
   uint32_t patch = 0;
   int steps = 0;
   std::array<dvec2, 4> corners{};
+  std::array<bool, 4> straight{};  ///< sides that are replaced by their chord, or part of it
 };
 
 dvec3 barycentric(dvec2 p) { return {p.x, p.y, 1.0 - p.x - p.y}; }
@@ -149,7 +150,7 @@ class Refinement {
   void run() {
     for (uint32_t i = 0; i < set_.patches.size(); ++i) {
       const bool triangle = set_.patches[i].domain == Domain::Triangle;
-      Part whole{i, 0, {dvec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+      Part whole{i, 0, {dvec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}};
       if (triangle) whole.corners = {dvec2{1, 0}, {0, 1}, {0, 0}, {}};
       stack_.push_back(whole);
     }
@@ -178,12 +179,38 @@ class Refinement {
   int cornersOf(const Part& part) const { return sidesOf(set_.patches[part.patch].domain); }
 
   void push(const Part& parent, std::initializer_list<dvec2> corners) {
-    Part part{parent.patch, parent.steps + 1, {}};
+    Part part{parent.patch, parent.steps + 1, {}, {}};
     std::copy(corners.begin(), corners.end(), part.corners.begin());
+    if (settings_.snap) inheritChords(parent, part);
     stack_.push_back(part);
   }
 
-  void visit(const Part& part) {
+  /// Sides of the part on a straight side of its parent are straight, and a new corner there lies on the
+  /// chord.
+  void inheritChords(const Part& parent, Part& part) {
+    const int count = cornersOf(parent);
+    for (int s = 0; s < count; ++s) {
+      if (!parent.straight[static_cast<size_t>(s)]) continue;
+      const dvec2 a = onSide(parent, s, 0.0), b = onSide(parent, s, 1.0), middle = onSide(parent, s, 0.5);
+      for (int side = 0; side < count; ++side) {
+        const dvec2 from = onSide(part, side, 0.0), to = onSide(part, side, 1.0);
+        const auto lies = [&](dvec2 p) { return p == a || p == b || p == middle; };
+        if (lies(from) && lies(to)) part.straight[static_cast<size_t>(side)] = true;
+        if (from == middle)
+          snapped_.try_emplace({part.patch, middle.x, middle.y},
+                               0.5 * (placeOf(part.patch, a) + placeOf(part.patch, b)));
+      }
+    }
+  }
+
+  dvec3 placeOf(uint32_t patch, dvec2 at) const {
+    const auto found = snapped_.find({patch, at.x, at.y});
+    if (found != snapped_.end()) return found->second;
+    const Patch& shape = set_.patches[patch];
+    return evaluate(set_, shape, domainPoint(shape.domain, at.x, at.y), Order::Position).p;
+  }
+
+  void visit(Part part) {
     ++counts_.tests;
     std::array<dvec3, kMostPoints> storage;
     const std::span<const dvec3> points = screen_.pointsOf(part, storage);
@@ -205,6 +232,10 @@ class Refinement {
                     ? triangleFlatness(settings_.flatness, patch.degreeU, points)
                     : rectangleFlatness(settings_.flatness, patch.degreeU, patch.degreeV, points)) >
                settings_.tolerancePx;
+    }
+    for (size_t side = 0; side < static_cast<size_t>(sides) && settings_.snap; ++side) {
+      part.straight[side] |= !bent[side];
+      bent[side] &= !part.straight[side];
     }
     const bool any = inside || std::any_of(bent.begin(), bent.begin() + sides, [](bool one) { return one; });
     if (!any || part.steps >= settings_.mostSteps) {
@@ -318,7 +349,7 @@ class Refinement {
     if (fresh) {
       const Patch& shape = set_.patches[patch];
       const DomainPoint place = domainPoint(shape.domain, at.x, at.y);
-      out_.positions.emplace_back(evaluate(set_, shape, place, Order::Position).p - out_.anchor);
+      out_.positions.emplace_back(placeOf(patch, at) - out_.anchor);
       out_.normals.emplace_back(normalAt(set_, shape, place).direction);
       out_.parameters.push_back(place);
       out_.patches.push_back(patch);
@@ -380,6 +411,7 @@ class Refinement {
   VertexNames names_{set_};
   TessellatedSurface out_;
   std::map<std::tuple<uint32_t, double, double>, uint32_t> vertices_;
+  std::map<std::tuple<uint32_t, double, double>, dvec3> snapped_;  ///< places on chords
 };
 
 }  // namespace

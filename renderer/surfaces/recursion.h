@@ -28,6 +28,9 @@ struct RecursionSettings {
   double tolerancePx = 0.5;
   int mostSteps = 14;
   bool cull = true;  ///< parts outside the view are left out
+  /// Once a side is flat, vertices on it lie on its chord, whatever the part beyond does: T-vertices remain,
+  /// cracks do not (section 7.2.4; SC-43).
+  bool snap = false;
 };
 
 struct RecursionCounts {

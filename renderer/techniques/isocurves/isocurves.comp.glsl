@@ -49,10 +49,7 @@ void plot(vec4 p, float u, float v) {
 #ifdef SURFACE_PASS
   // Two programs may round differently: within 16 units in the last place it is the same point.
   if (depth + 16u < imageLoad(depths, pixel).x) return;
-  DomainPoint point;
-  point.at = vec2(u, v);
-  point.rest = 1.0 - point.at;
-  const TessellatedVertex vertex = surfaceVertex(patch_, point);
+  const TessellatedVertex vertex = surfaceVertex(patch_, vec4(u, v, 1.0 - u, 1.0 - v));
   const vec3 normal = dot(vertex.normal, vertex.position - eye) > 0.0 ? -vertex.normal : vertex.normal;
   imageStore(ids, pixel, uvec4(kSurfaceOfPatch | vertex.material));
   imageStore(normals, pixel, vec4(normal, p.w));

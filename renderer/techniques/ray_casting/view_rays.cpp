@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/references/parallel.h"
 #include "renderer/surfaces/normal.h"
 
 namespace limen::techniques {
@@ -30,22 +29,20 @@ ExactView exactView(const surfaces::PatchSet& set, surfaces::RootFinder finder,
   ExactView out;
   out.sizePx = sizePx;
   out.pixels.resize(static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y));
-  std::vector<surfaces::RootCounts> counts(std::max(1U, std::thread::hardware_concurrency()));
-  references::parallelFor(out.pixels.size(), [&](size_t thread, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      const auto number = static_cast<int>(i);
-      const ViewRay ray = viewRay(view, {number % sizePx.x, number / sizePx.x}, sizePx);
-      const auto hit = tracer.nearest(ray.ray, tolerance, &counts[thread]);
-      if (!hit) continue;
-      ExactPixel& pixel = out.pixels[i];
-      pixel.hit = true, pixel.at = *hit, pixel.distance = ray.distanceAt(hit->t);
-      const surfaces::Patch& patch = set.patches[hit->patch];
-      const glm::dvec3 geometric = surfaces::geometricNormal(set, patch, hit->at).direction;
-      const double cosine = glm::dot(geometric, ray.ray.direction);
-      pixel.normal = surfaces::normalAt(set, patch, hit->at).direction;
-      if (cosine > 0.0) pixel.normal = -pixel.normal;
-      pixel.slope = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) / std::max(std::abs(cosine), 1e-9);
-    }
+  std::vector<surfaces::RootCounts> counts(coresForRays());
+  forAllPixels(out.pixels.size(), [&](size_t thread, size_t i) {
+    const auto number = static_cast<int>(i);
+    const ViewRay ray = viewRay(view, {number % sizePx.x, number / sizePx.x}, sizePx);
+    const auto hit = tracer.nearest(ray.ray, tolerance, &counts[thread]);
+    if (!hit) return;
+    ExactPixel& pixel = out.pixels[i];
+    pixel.hit = true, pixel.at = *hit, pixel.distance = ray.distanceAt(hit->t);
+    const surfaces::Patch& patch = set.patches[hit->patch];
+    const glm::dvec3 geometric = surfaces::geometricNormal(set, patch, hit->at).direction;
+    const double cosine = glm::dot(geometric, ray.ray.direction);
+    pixel.normal = surfaces::normalAt(set, patch, hit->at).direction;
+    if (cosine > 0.0) pixel.normal = -pixel.normal;
+    pixel.slope = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) / std::max(std::abs(cosine), 1e-9);
   });
   for (const surfaces::RootCounts& one : counts) {
     out.counts.steps += one.steps, out.counts.splits += one.splits;

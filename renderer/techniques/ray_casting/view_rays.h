@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
 #include "renderer/surfaces/patch_tracer.h"
 #include "renderer/surfaces/tessellated_surface.h"
 
@@ -15,6 +20,22 @@ struct ViewRay {
   double distanceAt(double t) const { return (start + t) / length; }
 };
 ViewRay viewRay(const surfaces::SurfaceView& view, glm::ivec2 pixel, glm::ivec2 sizePx);
+
+inline size_t coresForRays() { return std::max<size_t>(std::thread::hardware_concurrency(), 1); }
+
+/// work(thread, pixel) for all pixels on all cores; `thread` is below coresForRays(). Must not throw.
+template <class Work>
+void forAllPixels(size_t pixels, const Work& work) {
+  constexpr size_t kPiece = 64;  // small: costs of rays differ widely
+  std::atomic<size_t> next = 0;
+  const auto run = [&](size_t thread) {
+    for (size_t first = next.fetch_add(kPiece); first < pixels; first = next.fetch_add(kPiece))
+      for (size_t i = first; i < std::min(first + kPiece, pixels); ++i) work(thread, i);
+  };
+  std::vector<std::jthread> helpers;
+  for (size_t thread = 1; thread < coresForRays(); ++thread) helpers.emplace_back(run, thread);
+  run(0);
+}
 
 /// What each pixel of a picture sees of a scene's patches alone, by a root finder in double precision.
 struct ExactPixel {

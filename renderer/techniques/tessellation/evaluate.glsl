@@ -68,7 +68,9 @@ vec3 acrossTangents(BezierJet jet, out bool degenerate) {
 #endif
   const vec3 n = cross(a, b);
   const float aa = dot(a, a), bb = dot(b, b), least = 1e-10;
-  degenerate = !(dot(n, n) > least * aa * bb && aa > least * bb && bb > least * aa && aa > 0.0);
+  // What rounding leaves of a tangent of length 0: points lie far from the anchor, compared with the patch's size.
+  const float noise = 2e-6 * abs(jet.p.w) * length(jet.p.xyz);
+  degenerate = !(dot(n, n) > least * aa * bb && aa > least * bb && bb > least * aa && min(aa, bb) > noise * noise);
   return n;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/curved/teapot.h"
 #include "renderer/surfaces/neighbours.h"
@@ -165,6 +167,49 @@ TEST_F(Recursion, TrianglesSplitAtTheirSidesAreWatertight) {
     EXPECT_EQ(cracks.loneVertices, 0) << toText(flatness);
     EXPECT_EQ(cracks.openEdges, 0) << toText(flatness);
     EXPECT_EQ(cracks.unequalVertices, 0) << toText(flatness);
+  }
+}
+
+/// Largest distance of a patch's vertices on common sides from the other patch's edges along them.
+double largestGap(const PatchSet& set, const TessellatedSurface& surface) {
+  std::map<std::pair<uint32_t, int>, std::map<double, dvec3>> sides;
+  for (size_t i = 0; i < surface.positions.size(); ++i) {
+    const double u = surface.parameters[i].u, v = surface.parameters[i].v;
+    const auto add = [&](int side, double t) { sides[{surface.patches[i], side}][t] = surface.positions[i]; };
+    if (v == 0.0) add(0, u);
+    if (u == 1.0) add(1, v);
+    if (v == 1.0) add(2, 1.0 - u);
+    if (u == 0.0) add(3, 1.0 - v);
+  }
+  double gap = 0.0;
+  for (const auto& [place, vertices] : sides) {
+    const Neighbour& other = set.neighbours[place.first][static_cast<size_t>(place.second)];
+    if (other.patch < 0) continue;
+    const auto& there = sides[{static_cast<uint32_t>(other.patch), other.side}];
+    for (const auto& [t, p] : vertices) {
+      const double at = other.reversed ? 1.0 - t : t;
+      const auto after = there.lower_bound(at);
+      if (after == there.end() || after->first == at || after == there.begin()) continue;
+      const dvec3 a = std::prev(after)->second, d = after->second - a;
+      const double along = glm::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.0, 1.0);
+      gap = std::max(gap, glm::length(p - a - along * d));
+    }
+  }
+  return gap;
+}
+
+TEST_F(Recursion, SnappedSidesLeaveTVerticesWithoutGaps) {
+  const PatchSet teapot = teapotSet();
+  const SurfaceView view = viewFrom({2.5, 3.5, 3}, {0, 1.5, 0});
+  for (const SplitPolicy split : {SplitPolicy::Halves, SplitPolicy::Quarters, SplitPolicy::Mixed}) {
+    RecursionSettings settings{.split = split, .tolerancePx = 4.0, .cull = false};
+    const TessellatedSurface open = refined(teapot, view, settings);
+    settings.snap = true;
+    const TessellatedSurface snapped = refined(teapot, view, settings);
+    EXPECT_GT(cracksOf(teapot, snapped).loneVertices, 0) << toText(split);
+    EXPECT_GT(largestGap(teapot, open), 1e-3) << toText(split);
+    EXPECT_LT(largestGap(teapot, snapped), 1e-6) << toText(split);
+    EXPECT_NEAR(coveredArea(snapped), 32.0, 1e-9);
   }
 }
 

@@ -24,7 +24,7 @@ constexpr glm::ivec2 kSize{128, 96};
 TEST_F(RecursionTechniques, ShowWhatAFineTessellationShows) {
   for (const char* name : {"curved/teapot", "curved/double_torus"}) {
     const scene::Scene scene = makeScene(name);
-    const int64_t segments = std::string(name) == "curved/teapot" ? 64 : 16;
+    const int64_t segments = std::string(name) == "curved/teapot" ? 32 : 12;
     const Rendered fine = render(scene, "tessellation/uniform_fine", {{"segments", segments}}, kSize);
     for (const char* technique : {"recursion/cpu", "recursion/queues"}) {
       const Rendered made = render(scene, technique, {{"tolerance_px", 0.1}}, kSize);

@@ -5,6 +5,7 @@
 #include "renderer/frame/shaded.h"
 #include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/factors.h"
+#include "renderer/surfaces/other_patterns.h"
 #include "renderer/surfaces/surface_errors.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
@@ -392,6 +393,39 @@ TEST_F(TessellatedSurfaces, BoundsMadeOnceKeepTheToleranceToo) {
   // A box is nearer to the eye than its points: more segments, if few.
   EXPECT_GE(once->positions.size(), every->positions.size());
   EXPECT_LT(double(once->positions.size()), 1.3 * double(every->positions.size()));
+}
+
+/// The generator of concentric patterns against the driver's own tessellator, for all factors of two scenes.
+TEST_F(TessellatedSurfaces, TheDriversTessellatorMakesConcentricPatterns) {
+  for (const char* name : {"curved/double_torus", "curved/sheet"}) {
+    const scene::Scene scene = makeScene(name);
+    const auto surface = made(scene, {});
+    size_t expected = 0;
+    for (size_t i = 0; i < surface->factors.size(); ++i) {
+      const surfaces::Factors& f = surface->factors[i];
+      if (f[0] == 0) continue;
+      const surfaces::Domain domain = scene.surfaces.patches[i].domain;
+      const glm::ivec2 inner = domain == surfaces::Domain::Rectangle
+                                   ? glm::ivec2(std::min(f[0], f[2]), std::min(f[1], f[3]))
+                                   : glm::ivec2(std::max({f[0], f[1], f[2]}));
+      expected += surfaces::concentricPattern(domain, f, inner).triangles.size();
+    }
+    const Rendered driver = render(scene, "tessellation/hardware", {}, {160, 120}, true);
+    EXPECT_GT(expected, 1000U) << name;
+    EXPECT_EQ(driver.counter("tessellated_triangles"), double(expected)) << name;
+  }
+}
+
+TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
+  const auto refused = [](const std::string& name, const Given& given) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
+    EXPECT_THROW(info.check(ParameterValues(info.parameters, given)), Error) << name;
+  };
+  refused("tessellation/compute", text({{"form", "vertex_parallel"}, {"evaluation", "forward_differences"}}));
+  refused("tessellation/compute", text({{"form", "four_threads"}, {"spacing", "geomorph"}}));
+  refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
+  // Known with the scene alone.
+  EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
 }
 
 /// PN triangles: bounds hold, the estimate of 9/4 asks for fewer.

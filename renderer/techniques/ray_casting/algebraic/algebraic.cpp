@@ -13,7 +13,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/frame/g_buffer.h"
-#include "renderer/references/parallel.h"
 #include "renderer/surfaces/algebraic.h"
 #include "renderer/techniques/ray_casting/ray_casting_bindings.h"
 #include "renderer/techniques/ray_casting/view_rays.h"
@@ -68,7 +67,7 @@ struct AlgebraicSettings {
 };
 
 /// Inverse of the Bernstein polynomials' values at equal steps, row by row.
-std::vector<float> bernsteinFromValues(int n) {
+std::vector<double> bernsteinFromValues(int n) {
   const auto size = static_cast<size_t>(n + 1);
   std::vector<std::vector<double>> rows(size, std::vector<double>(2 * size, 0.0));
   for (size_t i = 0; i < size; ++i) {
@@ -93,9 +92,9 @@ std::vector<float> bernsteinFromValues(int n) {
       for (size_t k = 0; k < 2 * size; ++k) rows[r][k] -= factor * rows[c][k];
     }
   }
-  std::vector<float> out;
+  std::vector<double> out;
   for (size_t i = 0; i < size; ++i)
-    for (size_t j = 0; j < size; ++j) out.push_back(static_cast<float>(rows[i][size + j]));
+    for (size_t j = 0; j < size; ++j) out.push_back(rows[i][size + j]);
   return out;
 }
 
@@ -118,10 +117,17 @@ class AlgebraicRays : public Technique {
     program_ = &frame.context().programs().get(shaders, defines);
     defines["COUNTING"] = "1";
     countingProgram_ = &frame.context().programs().get(shaders, defines);
-    const std::vector<float> matrix = bernsteinFromValues(surfaces::degreeOf(settings_.surface));
-    for (const gl::Program* program : {program_, countingProgram_})
-      glProgramUniform1fv(program->id(), glGetUniformLocation(program->id(), "toBernstein"),
-                          static_cast<GLsizei>(matrix.size()), matrix.data());
+    const std::vector<double> matrix = bernsteinFromValues(surfaces::degreeOf(settings_.surface));
+    const std::vector<float> rounded(matrix.begin(), matrix.end());
+    for (const gl::Program* program : {program_, countingProgram_}) {
+      const GLint location = glGetUniformLocation(program->id(), "toBernstein");
+      const auto count = static_cast<GLsizei>(matrix.size());
+      if (settings_.precision == Precision::Double) {
+        glProgramUniform1dv(program->id(), location, count, matrix.data());
+      } else {
+        glProgramUniform1fv(program->id(), location, count, rounded.data());
+      }
+    }
     picture_.emplace(frame, settings_.shading, "ray_casting");
     glCreateVertexArrays(1, &vertexArray_);
   }
@@ -203,13 +209,11 @@ class AlgebraicRays : public Technique {
     exact.sizePx = size;
     exact.pixels.resize(normals.pixels());
     std::vector<double> distances(normals.pixels());
-    references::parallelFor(exact.pixels.size(), [&](size_t, size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        distances[i] = normals.data[4 * i + 3];
-        const auto number = static_cast<int>(i);
-        const ViewRay ray = viewRay(view, {number % size.x, number / size.x}, size);
-        exact.pixels[i] = exactPixel(ray, toObject);
-      }
+    forAllPixels(exact.pixels.size(), [&](size_t, size_t i) {
+      distances[i] = normals.data[4 * i + 3];
+      const auto number = static_cast<int>(i);
+      const ViewRay ray = viewRay(view, {number % size.x, number / size.x}, size);
+      exact.pixels[i] = exactPixel(ray, toObject);
     });
     const HitErrors errors = compareHits(exact, view, distances);
     out.insert(out.end(), {{"surface_px", double(errors.exactHits)},

@@ -105,14 +105,14 @@ LIMEN_REAL valueAlong(LIMEN_REAL t) {
 
 #if ROOTS != ROOTS_INTERVALS
 // Coefficients of the polynomial on [0, reach] in Bernstein form, by interpolation.
-uniform float toBernstein[(DEGREE + 1) * (DEGREE + 1)];
+uniform LIMEN_REAL toBernstein[(DEGREE + 1) * (DEGREE + 1)];
 LIMEN_REAL coefficients[DEGREE + 1];
 void interpolate() {
   LIMEN_REAL values[DEGREE + 1];
-  for (int i = 0; i <= DEGREE; ++i) values[i] = valueAlong(LIMEN_REAL(reach) * LIMEN_REAL(float(i) / float(DEGREE)));
+  for (int i = 0; i <= DEGREE; ++i) values[i] = valueAlong(LIMEN_REAL(reach) * LIMEN_REAL(float(i)) / LIMEN_REAL(float(DEGREE)));
   for (int i = 0; i <= DEGREE; ++i) {
     coefficients[i] = LIMEN_REAL(0.0);
-    for (int j = 0; j <= DEGREE; ++j) coefficients[i] += LIMEN_REAL(toBernstein[i * (DEGREE + 1) + j]) * values[j];
+    for (int j = 0; j <= DEGREE; ++j) coefficients[i] += toBernstein[i * (DEGREE + 1) + j] * values[j];
   }
 }
 #endif

@@ -25,17 +25,17 @@ void main() {
              firstIndex = number * uint(6 * grid * grid);
   for (uint slot = gl_LocalInvocationIndex; slot < slots; slot += uint(kRecursionGroup)) {
     const int i = int(slot % side), j = int(slot / side);
-    DomainPoint point;
+    vec4 point;
     if (rectangle) {
-      point.at = vec2(along(part.corners.xy, part.corners.zw, i).x, along(part.corners.xy, part.corners.zw, j).y);
-      point.rest = 1.0 - point.at;
+      const vec2 at = vec2(along(part.corners.xy, part.corners.zw, i).x, along(part.corners.xy, part.corners.zw, j).y);
+      point = vec4(at, 1.0 - at);
     } else {
       // A triangle's rows end early: the other slots stay unused.
       if (i + j > grid) continue;
       const vec2 a = part.corners.xy, b = part.corners.zw, c = vec2(part.lastU, part.lastV);
       const float u = float(grid - i - j) / float(grid), v = float(i) / float(grid), w = float(j) / float(grid);
-      point.at = u * a + v * b + w * c;
-      point.rest = vec2(1.0 - point.at.x - point.at.y, 0.0);
+      const vec2 at = u * a + v * b + w * c;
+      point = vec4(at, 1.0 - at.x - at.y, 0.0);
     }
     vertices[firstVertex + slot] = surfaceVertex(patch_, point);
   }
