@@ -5,24 +5,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
-#include "experiments/base/error.h"
 #include "experiments/base/hash.h"
+#include "experiments/base/replace_file.h"
 
 namespace limen::gl {
-namespace {
-
-void write(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush())
-    throw Error("cannot write '" + file.string() + "'", {},
-                "LIMEN_PROGRAM_BINARIES must name a folder that exists");
-}
-
-}  // namespace
-
 std::string programBinaryFolder() {
   const char* folder = std::getenv("LIMEN_PROGRAM_BINARIES");
   return folder ? folder : "";
@@ -40,8 +27,9 @@ void writeProgramBinary(const Program& program, const std::string& folder,
   bytes.resize(static_cast<size_t>(written));
   const std::string name =
       std::filesystem::path(paths.front()).stem().stem().string() + "." + sha256(description).substr(0, 8);
-  write(std::filesystem::path(folder) / (name + ".bin"), bytes);
-  write(std::filesystem::path(folder) / (name + ".txt"), description + "\n");
+  const std::string base = (std::filesystem::path(folder) / name).string();
+  replaceFile(base + ".bin", bytes);
+  replaceFile(base + ".txt", description + "\n");
 }
 
 }  // namespace limen::gl

@@ -416,6 +416,18 @@ TEST_F(TessellatedSurfaces, TheDriversTessellatorMakesConcentricPatterns) {
   }
 }
 
+TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
+  const auto refused = [](const std::string& name, const Given& given) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(name);
+    EXPECT_THROW(info.check(ParameterValues(info.parameters, given)), Error) << name;
+  };
+  refused("tessellation/compute", text({{"form", "vertex_parallel"}, {"evaluation", "forward_differences"}}));
+  refused("tessellation/compute", text({{"form", "four_threads"}, {"spacing", "geomorph"}}));
+  refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
+  // Known with the scene alone.
+  EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
+}
+
 /// PN triangles: bounds hold, the estimate of 9/4 asks for fewer.
 TEST_F(TessellatedSurfaces, PnTrianglesKeepTheTolerance) {
   const scene::Scene scene = makeScene("curved/double_torus");
