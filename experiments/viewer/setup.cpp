@@ -143,11 +143,16 @@ std::vector<std::string> comparable(const std::string& technique) {
 }
 
 std::optional<Entry> usualReference(const std::string& technique) {
-  const techniques::ProductKind kind = techniqueNamed(technique).product;
-  // Rays against the exact triangles share no approximation with any technique; a reference that can start
-  // coarse shows something soon.
-  const auto worth = [](const TechniqueInfo& info) {
-    return (info.effort.empty() ? 0 : 2) + (info.onCpu ? 1 : 0);
+  const TechniqueInfo& shown = techniqueNamed(technique);
+  const techniques::ProductKind kind = shown.product;
+  // Of curved surfaces the mesh is an approximation of its own. Rays against the exact
+  // triangles share no approximation with any technique; a reference that can start coarse shows something
+  // soon.
+  const auto isCurved = [](const TechniqueInfo& info) {
+    return std::find(info.needs.begin(), info.needs.end(), "curved_surfaces") != info.needs.end();
+  };
+  const auto worth = [&](const TechniqueInfo& info) {
+    return (isCurved(info) && isCurved(shown) ? 4 : 0) + (info.effort.empty() ? 0 : 2) + (info.onCpu ? 1 : 0);
   };
   const TechniqueInfo* best = nullptr;
   for (const auto& [name, info] : TechniqueRegistry::instance().all())

@@ -125,6 +125,9 @@ TEST(ViewSetup, AUsualReferenceMakesTheSameKindOfProduct) {
     const std::vector<std::string> names = comparable(name);
     EXPECT_NE(std::find(names.begin(), names.end(), reference->name), names.end()) << name;
   }
+  // Not rays against the mesh, which approximates the patches itself.
+  EXPECT_EQ(usualReference("tessellation/compute")->name, "ray_casting/exact");
+  EXPECT_EQ(usualReference("soft_shadows/bitmask")->name, "soft_shadows/ray_traced");
 }
 
 TEST(Mailbox, HandsOverOnlyTheNewest) {
