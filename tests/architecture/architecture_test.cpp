@@ -76,6 +76,8 @@ TEST(Architecture, SourcesStartWithTheLicenceLine) {
 
 TEST(Architecture, FilesAreWrittenInOneWay) { EXPECT_THAT(checkFileWriting(LIMEN_SOURCE_DIR), IsEmpty()); }
 
+TEST(Architecture, ShadersAreListed) { EXPECT_THAT(checkShaderLists(LIMEN_SOURCE_DIR), IsEmpty()); }
+
 TEST(Architecture, DocsListThePackagesThatTheLauncherInstalls) {
   const std::filesystem::path root = LIMEN_SOURCE_DIR;
   EXPECT_THAT(checkPackageTable(readText(root / "docs/building.md"), readText(root / "packages.txt")),

@@ -134,6 +134,35 @@ Violations checkFileWriting(const fs::path& root) {
   return violations;
 }
 
+Violations checkShaderLists(const fs::path& root) {
+  std::string lists;
+  std::vector<fs::path> shaders;
+  for (const char* part : {"renderer", "perception", "experiments", "tests"}) {
+    if (!fs::exists(root / part)) continue;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / part)) {
+      const fs::path& file = entry.path();
+      if (file.filename() == "CMakeLists.txt") {
+        std::ifstream in(file);
+        lists.append(std::istreambuf_iterator<char>(in), {});
+      } else if (file.extension() == ".glsl") {
+        shaders.push_back(file);
+      }
+    }
+  }
+  Violations violations;
+  for (const fs::path& file : shaders) {
+    const std::string name = file.filename().string(), folder = file.parent_path().filename().string();
+    // limen_technique(TARGET NAME) lists NAME/NAME.comp.glsl.
+    const bool byTechnique = name == folder + ".comp.glsl" &&
+                             std::regex_search(lists, std::regex("limen_technique\\(\\w+ " + folder + "\\)"));
+    if (!byTechnique && !std::regex_search(lists, std::regex("[\\s/]" + name + "[\\s)]")))
+      violations.push_back(file.lexically_relative(root).generic_string() +
+                           ": no limen_shaders() lists it, so no program that embeds shaders has it");
+  }
+  std::sort(violations.begin(), violations.end());
+  return violations;
+}
+
 Violations checkPackageTable(const std::string& page, const std::string& packages) {
   std::vector<std::string> told, listed;
   std::istringstream rows(page), lines(packages);

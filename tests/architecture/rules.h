@@ -23,6 +23,10 @@ Violations checkLicenceLines(const std::filesystem::path& root);
 /// through experiments/base/part_file.h, which never leaves half a file and never replaces an input.
 Violations checkFileWriting(const std::filesystem::path& root);
 
+/// Every .glsl file under `root` is listed in a CMakeLists.txt: builds that embed shaders know no others, and
+/// those that read them from the tree would not notice.
+Violations checkShaderLists(const std::filesystem::path& root);
+
 /// The dependency table of a page (rows "| `package` | when | reason |") says what packages.txt says, in its
 /// order.
 Violations checkPackageTable(const std::string& page, const std::string& packages);

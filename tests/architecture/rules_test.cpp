@@ -107,6 +107,16 @@ TEST_F(PlantedTree, AFileThatIsWrittenByItselfIsFound) {
                                                             HasSubstr("renderer/frame/open.cpp:1")));
 }
 
+TEST_F(PlantedTree, AShaderThatNoListNamesIsFound) {
+  plant("renderer/frame/CMakeLists.txt",
+        "limen_shaders(limen_frame\n  a.glsl parts/b.glsl\n  c.glsl)\nlimen_technique(x hard)\n");
+  for (const char* file :
+       {"a.glsl", "parts/b.glsl", "c.glsl", "hard/hard.comp.glsl", "hard/soft.comp.glsl", "aa.glsl"})
+    plant(std::string("renderer/frame/") + file, "void main() {}\n");
+  EXPECT_THAT(checkShaderLists(root_), UnorderedElementsAre(HasSubstr("renderer/frame/hard/soft.comp.glsl:"),
+                                                            HasSubstr("renderer/frame/aa.glsl:")));
+}
+
 TEST(TargetRules, ALinkAgainstTheDirectionIsFoundInsideGeneratorExpressions) {
   const auto targets = readTargets(
       "limen_options|.|\n"
