@@ -36,11 +36,11 @@ ColourScale errorScaleOf(const std::string& title, double white, double largest)
   return out;
 }
 
-ColourScale thresholdScale() {
+ColourScale thresholdScale(const std::string& title) {
   const double black = perception::kThresholdPictureBlack, white = perception::kThresholdPictureWhite;
   static const auto kStrip = std::make_shared<const ScreenPicture>(screenPicture(perception::thresholdPicture(
       ramp([&](double share) { return black * std::pow(white / black, share); }))));
-  ColourScale out{kStrip, {}, "threshold (cd/m2)"};
+  ColourScale out{kStrip, {}, title};
   const double decades = std::log10(white / black);
   for (int i = 0; i <= static_cast<int>(std::lround(decades)); ++i)
     out.ticks.emplace_back(static_cast<float>(i / decades), shortestNumber(black * std::pow(10.0, i)));

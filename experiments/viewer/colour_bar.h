@@ -26,7 +26,7 @@ struct ColourScale {
 /// ones lie beyond the scale.
 ColourScale errorScaleOf(const std::string& title, double white, double largest);
 /// Of perception::thresholdPicture().
-ColourScale thresholdScale();
+ColourScale thresholdScale(const std::string& title = "threshold (cd/m2)");
 
 /// A scale drawn below a picture.
 class ColourBar {

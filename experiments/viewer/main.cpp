@@ -261,8 +261,9 @@ int viewMain(int argc, char** argv) {
   app.add_option("--monitor", options.monitor, "Which monitor, from 0")->capture_default_str();
   app.add_option("--display", options.display, "Display to predict for: preset or YAML file")
       ->capture_default_str();
-  app.add_option("--arrangement", options.arrangement,
-                 "first, second, side_by_side, split, flicker, error, thresholds or popping")
+  app.add_option(
+         "--arrangement", options.arrangement,
+         "first, second, side_by_side, split, flicker, error, thresholds, single_thresholds or popping")
       ->capture_default_str();
   app.add_option("--results", options.results, "Folder for exported descriptors, pictures, views and paths")
       ->capture_default_str();

@@ -166,8 +166,11 @@ std::optional<ColourScale> PicturePane::scaleOf(const ViewerState& state) const 
     const ErrorMap& map = state.evaluated->maps.at(state.errorMap);
     return errorScaleOf(wordsOf(state.errorMap), map.white, map.largest);
   }
-  if (state.arrangement == Arrangement::Overlay)
-    return isThresholds(state.overlay) ? std::optional(thresholdScale()) : std::nullopt;
+  if (state.arrangement == Arrangement::Overlay) {
+    if (!isThresholds(state.overlay)) return std::nullopt;
+    return thresholdScale(state.overlay == Overlay::SingleThresholds ? "single threshold map (cd/m2)"
+                                                                     : "threshold, all bands (cd/m2)");
+  }
   const Rendered* first = state.rendered(0);
   if (!first || state.arrangement == Arrangement::Second) return {};
   if (first->viewWhite > 0.0) return errorScaleOf(wordsOf(state.debugView), first->viewWhite, 0.0);

@@ -31,8 +31,9 @@ void paintThresholds(const Image& picture, const EvaluationRequest& request, Eva
   const Image thresholds = perception::toImage(made.thresholdCdM2);
   result.overlay = std::make_shared<ScreenPicture>(screenPicture(perception::thresholdPicture(thresholds)));
   const auto [least, most] = std::minmax_element(thresholds.data.begin(), thresholds.data.end());
-  result.overlayNote =
-      "thresholds " + numberText(*least) + " to " + numberText(*most) + " cd/m2 on " + request.display.name;
+  result.overlayNote = (request.overlay == Overlay::SingleThresholds ? "single threshold map, "
+                                                                     : "thresholds of all bands, ") +
+                       numberText(*least) + " to " + numberText(*most) + " cd/m2 on " + request.display.name;
 }
 
 void paintPopping(const Image& actual, const Image& before, const EvaluationRequest& request,

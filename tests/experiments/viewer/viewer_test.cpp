@@ -340,6 +340,10 @@ TEST_F(ViewerUse, PredictionsArePaintedOver) {
     ASSERT_TRUE(viewer_->state().evaluated && viewer_->state().evaluated->overlay);
     EXPECT_EQ(viewer_->state().evaluated->overlay->sizePx, setup.sizePx);
     EXPECT_THAT(viewer_->state().evaluated->overlayNote, HasSubstr("schwarz_2009"));
+    if (overlay == Overlay::Popping) continue;
+    // The two kinds of thresholds are told apart.
+    EXPECT_THAT(viewer_->state().evaluated->overlayNote,
+                HasSubstr(overlay == Overlay::Thresholds ? "all bands" : "single threshold map"));
   }
   // Hard edges in place of soft ones are seen.
   EXPECT_THAT(viewer_->state().evaluated->overlayNote, HasSubstr("popping region"));
