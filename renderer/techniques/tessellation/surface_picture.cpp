@@ -107,6 +107,19 @@ void SurfacePicture::renderListed(frame::Frame& frame, const frame::ListedTriang
   shade(frame);
 }
 
+uint32_t SurfacePicture::countTriangles(frame::Frame& frame, const std::function<void()>& draw) {
+  uint32_t query = 0, triangles = 0;
+  glGenQueries(1, &query);
+  render(frame, [&] {
+    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+    draw();
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+  });
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &triangles);
+  glDeleteQueries(1, &query);
+  return triangles;
+}
+
 void SurfacePicture::shade(frame::Frame& frame) {
   const auto scope = frame.passes().open(pass_ + "/shade");
   frame::configureShading(shadeProgram_, frame, shading_);

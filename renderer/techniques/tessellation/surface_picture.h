@@ -27,6 +27,8 @@ class SurfacePicture {
   void render(frame::Frame& frame, const std::function<void()>& draw);
   /// The same by ComputeRaster; vertices are TessellatedVertex.
   void renderListed(frame::Frame& frame, const frame::ListedTriangles& triangles);
+  /// Triangles that `draw` makes; renders once more and waits for the GPU.
+  uint32_t countTriangles(frame::Frame& frame, const std::function<void()>& draw);
   const gl::Texture& texture() const { return picture_; }
 
  private:

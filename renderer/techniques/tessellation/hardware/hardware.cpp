@@ -81,15 +81,7 @@ class HardwareTessellation : public Technique {
   const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    uint32_t query = 0, triangles = 0;
-    glGenQueries(1, &query);
-    picture_->render(frame, [&] {
-      glBeginQuery(GL_PRIMITIVES_GENERATED, query);
-      draw(frame);
-      glEndQuery(GL_PRIMITIVES_GENERATED);
-    });
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &triangles);
-    glDeleteQueries(1, &query);
+    const uint32_t triangles = picture_->countTriangles(frame, [&] { draw(frame); });
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     const auto culled = [](const PatchFactors& of) { return of.segments == 0; };
     return {{"patches_culled", double(std::count_if(factors.begin(), factors.end(), culled))},

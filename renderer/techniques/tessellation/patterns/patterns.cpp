@@ -121,15 +121,7 @@ class RefinementPatterns : public Technique {
   const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    uint32_t query = 0, triangles = 0;
-    glGenQueries(1, &query);
-    picture_->render(frame, [&] {
-      glBeginQuery(GL_PRIMITIVES_GENERATED, query);
-      draw(frame);
-      glEndQuery(GL_PRIMITIVES_GENERATED);
-    });
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &triangles);
-    glDeleteQueries(1, &query);
+    const uint32_t triangles = picture_->countTriangles(frame, [&] { draw(frame); });
     double culled = 0.0, used = 0.0;
     for (const PatchFactors& of : factors_->factors().read<PatchFactors>(0, patches_->count()))
       culled += of.segments == 0;
