@@ -9,6 +9,7 @@
 
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
+#include "tests/renderer/surfaces/rings.h"
 
 namespace limen::surfaces {
 namespace {
@@ -33,34 +34,11 @@ PolygonMesh fan(int valence, bool open, scene::Random& random) {
   return mesh;
 }
 
-/// The ring around vertex 0 after one step.
-PolygonMesh closerRing(const PolygonMesh& mesh) {
-  const PolygonMesh fine = catmullClark(mesh);
-  PolygonMesh ring;
-  std::map<uint32_t, uint32_t> places{{0U, 0U}};
-  ring.points.push_back(fine.points[0]);
-  for (std::vector<uint32_t> face : fine.faces) {
-    if (face[0] != 0) continue;
-    for (uint32_t& v : face) {
-      const auto [at, isNew] = places.try_emplace(v, uint32_t(ring.points.size()));
-      if (isNew) ring.points.push_back(fine.points[v]);
-      v = at->second;
-    }
-    ring.faces.push_back(face);
-  }
-  return ring;
-}
-
-/// As often, seen from the limit of vertex 0 and enlarged, so that rounding stays small.
+PolygonMesh closerRing(const PolygonMesh& mesh) { return ringOfFirst(catmullClark(mesh)); }
 PolygonMesh enlargedRing(PolygonMesh mesh, int steps) {
-  for (int step = 0; step < steps; ++step) {
-    mesh = closerRing(mesh);
-    const glm::dvec3 centre = catmullClarkLimit(mesh).points[0];
-    double size = 0.0;
-    for (glm::dvec3& p : mesh.points) p -= centre, size = std::max(size, glm::length(p));
-    for (glm::dvec3& p : mesh.points) p /= size;
-  }
-  return mesh;
+  return enlargedRingOfFirst(
+      std::move(mesh), steps, [](const PolygonMesh& coarse) { return catmullClark(coarse); },
+      [](const PolygonMesh& ring) { return catmullClarkLimit(ring); });
 }
 
 /// SC-19: vertices after many steps come to where the limit masks put them, valences 3 to 12, inner vertices

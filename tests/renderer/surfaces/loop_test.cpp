@@ -13,6 +13,7 @@
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/normal.h"
 #include "renderer/surfaces/qas_patches.h"
+#include "tests/renderer/surfaces/rings.h"
 
 namespace limen::surfaces {
 namespace {
@@ -31,34 +32,11 @@ PolygonMesh triangleFan(int valence, bool open, scene::Random& random) {
   return mesh;
 }
 
-/// The ring around vertex 0 after one step.
-PolygonMesh closerTriangles(const PolygonMesh& mesh) {
-  const PolygonMesh fine = loop(mesh);
-  PolygonMesh ring;
-  std::map<uint32_t, uint32_t> places{{0U, 0U}};
-  ring.points.push_back(fine.points[0]);
-  for (std::vector<uint32_t> face : fine.faces) {
-    if (face[0] != 0) continue;
-    for (uint32_t& v : face) {
-      const auto [at, isNew] = places.try_emplace(v, uint32_t(ring.points.size()));
-      if (isNew) ring.points.push_back(fine.points[v]);
-      v = at->second;
-    }
-    ring.faces.push_back(face);
-  }
-  return ring;
-}
-
-/// As often, seen from the limit of vertex 0 and enlarged, so that rounding stays small.
+PolygonMesh closerTriangles(const PolygonMesh& mesh) { return ringOfFirst(loop(mesh)); }
 PolygonMesh enlargedTriangles(PolygonMesh mesh, int steps) {
-  for (int step = 0; step < steps; ++step) {
-    mesh = closerTriangles(mesh);
-    const glm::dvec3 centre = loopLimit(mesh).points[0];
-    double size = 0.0;
-    for (glm::dvec3& p : mesh.points) p -= centre, size = std::max(size, glm::length(p));
-    for (glm::dvec3& p : mesh.points) p /= size;
-  }
-  return mesh;
+  return enlargedRingOfFirst(
+      std::move(mesh), steps, [](const PolygonMesh& coarse) { return loop(coarse); },
+      [](const PolygonMesh& ring) { return loopLimit(ring); });
 }
 
 /// SC-19: valences 3 to 12, inner vertices and boundaries with 1 to 12 faces.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <memory>
 #include <optional>
@@ -31,6 +32,15 @@ struct Rendered {
 /// medium or high severity fails the test.
 class TechniqueTest : public testing::Test {
  protected:
+  /// Of two colours' pictures, over pixels and channels.
+  static double meanDifference(const Image& a, const Image& b) {
+    double sum = 0.0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x)
+        for (int c = 0; c < 3; ++c) sum += std::abs(double(a.at(x, y, c)) - b.at(x, y, c));
+    return sum / (3.0 * a.width * a.height);
+  }
+
   static gl::Context& context() {
     static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
     return *kContext;

@@ -12,16 +12,7 @@
 namespace limen::techniques {
 namespace {
 
-class Tessellation : public TechniqueTest {
- protected:
-  static double meanDifference(const Image& a, const Image& b) {
-    double sum = 0.0;
-    for (int y = 0; y < a.height; ++y)
-      for (int x = 0; x < a.width; ++x)
-        for (int c = 0; c < 3; ++c) sum += std::abs(double(a.at(x, y, c)) - b.at(x, y, c));
-    return sum / (3.0 * a.width * a.height);
-  }
-};
+class Tessellation : public TechniqueTest {};
 
 TEST_F(Tessellation, UniformFactorsMakeTheVerticesAndIndicesOfTheClosedForm) {
   const scene::Scene teapot = makeScene("curved/teapot");
