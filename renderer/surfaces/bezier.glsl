@@ -91,11 +91,13 @@ BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
   return jet;
 }
 
-// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis().
+// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). No products within a constructor: NVIDIA's
+// compiler regroups them there although the vector is `precise`, so that the polynomials no longer mirror each other.
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
-  precise vec4 basis = vec4(ss * s, 3.0 * (t * ss), 3.0 * (tt * s), tt * t);
-  return basis;
+  precise float tss = t * ss, tts = tt * s;
+  precise float b0 = ss * s, b1 = 3.0 * tss, b2 = 3.0 * tts, b3 = tt * t;
+  return vec4(b0, b1, b2, b3);
 }
 vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
   precise vec4 outer = c0 * basis.x + c3 * basis.w;
@@ -105,8 +107,9 @@ vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
 }
 // The three of degree 2 and their sum.
 vec3 quadraticBasis(float t, float s) {
-  precise vec3 basis = vec3(s * s, 2.0 * (t * s), t * t);
-  return basis;
+  precise float ts = t * s;
+  precise float b0 = s * s, b1 = 2.0 * ts, b2 = t * t;
+  return vec3(b0, b1, b2);
 }
 vec4 quadraticSum(vec3 basis, vec4 c0, vec4 c1, vec4 c2) {
   precise vec4 outer = c0 * basis.x + c2 * basis.z;
