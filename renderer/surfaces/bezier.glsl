@@ -91,8 +91,9 @@ BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
   return jet;
 }
 
-// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). No products within a constructor: NVIDIA's
-// compiler regroups them there although the vector is `precise`, so that the polynomials no longer mirror each other.
+// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). Whoever calls this must keep the result in a
+// variable that is `precise` too: NVIDIA's compiler regroups the products otherwise, where the result is passed to a function
+// that it does not inline, and the polynomials no longer mirror each other.
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
   precise float tss = t * ss, tts = tt * s;
@@ -152,9 +153,9 @@ void bicubicRow(int j, vec4 bu, vec3 du, out BicubicPoint p, out BicubicPoint u)
   u = 3.0 * quadraticSum(du, c1 - c0, c2 - c1, c3 - c2);
 }
 BicubicColumn bicubicColumn(float u, float rest) {
-  const vec4 bu = cubicBasis(u, rest);
-  const vec3 du = quadraticBasis(u, rest);
-  BicubicColumn c;
+  precise const vec4 bu = cubicBasis(u, rest);
+  precise const vec3 du = quadraticBasis(u, rest);
+  precise BicubicColumn c;
   bicubicRow(0, bu, du, c.p0, c.u0);
   bicubicRow(1, bu, du, c.p1, c.u1);
   bicubicRow(2, bu, du, c.p2, c.u2);
@@ -162,10 +163,12 @@ BicubicColumn bicubicColumn(float u, float rest) {
   return c;
 }
 BezierJet bicubicAt(BicubicColumn c, float v, float rest) {
-  const vec4 bv = cubicBasis(v, rest);
+  precise const vec4 bv = cubicBasis(v, rest);
+  precise const vec3 dv = quadraticBasis(v, rest);
+  precise const BicubicPoint value = cubicSum(bv, c.p0, c.p1, c.p2, c.p3);
   return BezierJet(
-      homogeneousPoint(cubicSum(bv, c.p0, c.p1, c.p2, c.p3)), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
-      homogeneousDerivative(3.0 * quadraticSum(quadraticBasis(v, rest), c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
+      homogeneousPoint(value), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
+      homogeneousDerivative(3.0 * quadraticSum(dv, c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
       vec4(0.0), vec4(0.0), vec4(0.0));
 }
 
