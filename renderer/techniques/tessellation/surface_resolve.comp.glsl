@@ -11,12 +11,18 @@ layout(binding = kResolveSurfaceIdsUnit) uniform usampler2D surfaceIds;
 layout(binding = kResolveSurfaceDepthUnit) uniform sampler2D surfaceDepth;
 layout(binding = kResolveIdsImage, r32ui) uniform writeonly uimage2D ids;
 layout(binding = kResolveNormalsImage, rgba32f) uniform writeonly image2D normals;
-layout(std430, binding = kResolveVerticesBuffer) readonly buffer Vertices { TessellatedVertex vertices[]; };
+// TessellatedVertex; sixteen bytes are read at once.
+layout(std430, binding = kResolveVerticesBuffer) readonly buffer VertexWords { uvec4 vertexWords[]; };
 layout(std430, binding = kResolveIndicesBuffer) readonly buffer Indices { uint indices[]; };
 
 uniform ivec2 sizePx;
 uniform vec2 rayScale;
 uniform mat4 anchorToCamera;
+
+TessellatedVertex vertexAt(uint at) {
+  const uvec4 first = vertexWords[2u * at], second = vertexWords[2u * at + 1u];
+  return TessellatedVertex(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w);
+}
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -26,8 +32,8 @@ void main() {
     imageStore(ids, pixel, uvec4(texelFetch(meshIds, pixel, 0).x));
     return;
   }
-  const TessellatedVertex va = vertices[indices[3u * triangle]], vb = vertices[indices[3u * triangle + 1u]],
-                          vc = vertices[indices[3u * triangle + 2u]];
+  const TessellatedVertex va = vertexAt(indices[3u * triangle]), vb = vertexAt(indices[3u * triangle + 1u]),
+                          vc = vertexAt(indices[3u * triangle + 2u]);
   const vec3 a = (anchorToCamera * vec4(va.position, 1.0)).xyz, b = (anchorToCamera * vec4(vb.position, 1.0)).xyz,
              c = (anchorToCamera * vec4(vc.position, 1.0)).xyz;
   const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
