@@ -57,8 +57,10 @@ struct FourThreads {
                               *kSummary = "four invocations a patch, one for each component (the thesis's)";
 };
 
-/// An NVIDIA H200 runs 132 x 2048 invocations at once.
-constexpr uint32_t kManyInvocations = 1U << 18;
+/// That occupy a GPU, of which an NVIDIA H200 runs 132 x 2048 at once, or a software renderer.
+uint32_t manyInvocations(const gl::Context& context) {
+  return context.device().software ? 1U << 8 : 1U << 18;
+}
 
 struct EvaluateDirectly {
   static constexpr const char *kKind = "direct", *kSummary = "each sample for itself";
@@ -197,7 +199,7 @@ class ComputeTessellation : public Technique {
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
       totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
-      if (!settings_.vertexParallel()) setLanes();
+      if (!settings_.vertexParallel()) setLanes(frame.context());
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
@@ -328,12 +330,12 @@ class ComputeTessellation : public Technique {
     return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
   }
 
-  void setLanes() const {
+  void setLanes(const gl::Context& context) const {
     const auto* patchParallel = std::get_if<PatchParallel>(&settings_.form);
     const auto given = static_cast<uint32_t>(patchParallel ? patchParallel->lanes : 0);
     totalsProgram_->set("lanes", settings_.fourThreads() ? 4U : given);
     totalsProgram_->set("indexLanes", given);
-    totalsProgram_->set("manyInvocations", kManyInvocations);
+    totalsProgram_->set("manyInvocations", manyInvocations(context));
     totalsProgram_->set(
         "verticesPerInvocation",
         static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
