@@ -58,36 +58,44 @@ void differences(int n, inout vec4 points[10]) {
 
 // Derivatives up to `order`, 0 to 2.
 BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
-  float basisU[3][10], basisV[3][10];
-  for (int k = 0; k <= order; ++k) {
-    bernsteinBasis(max(degreeU - k, 0), at.x, at.z, basisU[k]);
-    bernsteinBasis(max(degreeV - k, 0), at.y, at.w, basisV[k]);
+  // Of the degrees less 0, 1 and 2. Arrays of their own: NVIDIA's compiler refuses an array's element at a variable place as
+  // an out argument.
+  float basisU0[10], basisU1[10], basisU2[10], basisV0[10], basisV1[10], basisV2[10];
+  bernsteinBasis(degreeU, at.x, at.z, basisU0);
+  bernsteinBasis(degreeV, at.y, at.w, basisV0);
+  if (order > 0) {
+    bernsteinBasis(degreeU - 1, at.x, at.z, basisU1);
+    bernsteinBasis(degreeV - 1, at.y, at.w, basisV1);
+  }
+  if (order > 1) {
+    bernsteinBasis(max(degreeU - 2, 0), at.x, at.z, basisU2);
+    bernsteinBasis(max(degreeV - 2, 0), at.y, at.w, basisV2);
   }
   const float m = float(degreeU), n = float(degreeV);
   vec4 row[10], p[10], u[10], uu[10];
   for (int j = 0; j <= degreeV; ++j) {
     for (int i = 0; i <= degreeU; ++i) row[i] = bezierPoint(i + (degreeU + 1) * j);
-    p[j] = bezierSum(degreeU, basisU[0], row);
+    p[j] = bezierSum(degreeU, basisU0, row);
     if (order == 0) continue;
     differences(degreeU, row);
-    u[j] = m * bezierSum(degreeU - 1, basisU[1], row);
+    u[j] = m * bezierSum(degreeU - 1, basisU1, row);
     uu[j] = vec4(0.0);
     if (order == 1 || degreeU == 1) continue;
     differences(degreeU - 1, row);
-    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU[2], row);
+    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU2, row);
   }
-  BezierJet jet = BezierJet(bezierSum(degreeV, basisV[0], p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  BezierJet jet = BezierJet(bezierSum(degreeV, basisV0, p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (order == 0) return jet;
-  jet.u = bezierSum(degreeV, basisV[0], u);
+  jet.u = bezierSum(degreeV, basisV0, u);
   differences(degreeV, p);
-  jet.v = n * bezierSum(degreeV - 1, basisV[1], p);
+  jet.v = n * bezierSum(degreeV - 1, basisV1, p);
   if (order == 1) return jet;
-  jet.uu = bezierSum(degreeV, basisV[0], uu);
+  jet.uu = bezierSum(degreeV, basisV0, uu);
   differences(degreeV, u);
-  jet.uv = n * bezierSum(degreeV - 1, basisV[1], u);
+  jet.uv = n * bezierSum(degreeV - 1, basisV1, u);
   if (degreeV == 1) return jet;
   differences(degreeV - 1, p);
-  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV[2], p);
+  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV2, p);
   return jet;
 }
 

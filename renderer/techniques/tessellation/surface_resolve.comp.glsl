@@ -19,7 +19,8 @@ layout(std430, binding = kResolveSurfaceQueueBuffer) buffer SurfaceQueue { Raste
 layout(std430, binding = kResolveMeshQueueBuffer) buffer MeshQueue { RasterQueueHeader meshQueue; };
 layout(binding = kResolveIdsImage, r32ui) uniform writeonly uimage2D ids;
 layout(binding = kResolveNormalsImage, rgba32f) uniform writeonly image2D normals;
-layout(std430, binding = kResolveVerticesBuffer) readonly buffer Vertices { TessellatedVertex vertices[]; };
+// TessellatedVertex; sixteen bytes are read at once.
+layout(std430, binding = kResolveVerticesBuffer) readonly buffer VertexWords { uvec4 vertexWords[]; };
 layout(std430, binding = kResolveIndicesBuffer) readonly buffer Indices { uint indices[]; };
 
 uniform ivec2 sizePx;
@@ -59,6 +60,11 @@ Gathered takeMesh(int at) {
 #endif
 }
 
+TessellatedVertex vertexAt(uint at) {
+  const uvec4 first = vertexWords[2u * at], second = vertexWords[2u * at + 1u];
+  return TessellatedVertex(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w);
+}
+
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (pixel == ivec2(0)) {
@@ -75,8 +81,8 @@ void main() {
     imageStore(ids, pixel, uvec4(mesh.id));
     return;
   }
-  const TessellatedVertex va = vertices[indices[3u * triangle]], vb = vertices[indices[3u * triangle + 1u]],
-                          vc = vertices[indices[3u * triangle + 2u]];
+  const TessellatedVertex va = vertexAt(indices[3u * triangle]), vb = vertexAt(indices[3u * triangle + 1u]),
+                          vc = vertexAt(indices[3u * triangle + 2u]);
   const vec3 a = (anchorToCamera * vec4(va.position, 1.0)).xyz, b = (anchorToCamera * vec4(vb.position, 1.0)).xyz,
              c = (anchorToCamera * vec4(vc.position, 1.0)).xyz;
   const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));

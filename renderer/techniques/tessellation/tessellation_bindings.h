@@ -10,7 +10,8 @@ using glm::ivec4;
 #endif
 
 const int kTessellationGroup = 64;
-const int kMostSegments = 64;  // of a side
+const int kMostSegments = 64;                  // of a side
+const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
 struct TessellatedPatch {  // std430
   uint firstPoint, firstNormal;
@@ -74,9 +75,11 @@ struct TessellationTotals {
   uint indices, instances, firstIndex, baseVertex, baseInstance;  // DrawElementsIndirectCommand
   uint overflow;                                                  // patches that do not fit
   uint neededVertices, neededIndices;
+  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
+  uint unused0, unused1;
 };
 #ifdef __cplusplus
-static_assert(sizeof(TessellationTotals) == 64 && offsetof(TessellationTotals, indices) == 32);
+static_assert(sizeof(TessellationTotals) == 80 && offsetof(TessellationTotals, indices) == 32);
 #endif
 
 // DrawElementsIndirectCommand.

@@ -355,6 +355,30 @@ TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
   EXPECT_EQ(std::memcmp(one->positions.data(), four->positions.data(), one->positions.size() * 12), 0);
 }
 
+/// However many invocations share a patch: vertices and triangles bit for bit, whether sides are divided
+/// alike or not, and for triangles as well.
+TEST_F(TessellatedSurfaces, InvocationsThatShareAPatchMakeTheSameOfIt) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string raster : {"hardware", "compute"}) {
+      const auto first = made(scene, text({{"form", "vertex_parallel"}, {"raster", raster}}));
+      ASSERT_GT(first->positions.size(), 1000U);
+      for (const int64_t lanes : {0, 4, 8, 32, 64, 256, 1024}) {
+        Given given = text({{"form", "patch_parallel"}, {"raster", raster}});
+        given.emplace("form.lanes", lanes);
+        const auto other = made(scene, given);
+        ASSERT_EQ(first->positions.size(), other->positions.size()) << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->positions.data(), other->positions.data(), first->positions.size() * 12),
+                  0)
+            << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->normals.data(), other->normals.data(), first->normals.size() * 12), 0)
+            << raster << lanes;
+        EXPECT_EQ(first->triangles, other->triangles) << raster << lanes;
+      }
+    }
+}
+
 /// Spacings of real factors, with sides that run in all combinations of directions.
 TEST_F(TessellatedSurfaces, AllSpacingsAreWithoutCracks) {
   const scene::Scene scene = makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}});
