@@ -25,19 +25,30 @@ Sharing sharingOf(uint32_t triangles, glm::ivec2 sizePx) {
   return int64_t{kShared.lanes} * triangles <= int64_t{2} * sizePx.x * sizePx.y ? kShared : kAlone;
 }
 
-const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels, int vertexWords,
+/// What a pass over the triangles gathers.
+enum class Gathers { Depths, Ids, Packed };
+
+const gl::Program& program(gl::Context& context, bool large, Gathers gathers, bool peels, int vertexWords,
                            const Sharing& sharing) {
   gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"},
                                {"SMALL_LANES", std::to_string(sharing.lanes)},
                                {"SMALL_PIXELS", std::to_string(sharing.pixels)}};
   if (large) defines["LARGE"] = "1";
-  if (ids) defines["IDS"] = "1";
+  if (gathers == Gathers::Ids) defines["IDS"] = "1";
+  if (gathers == Gathers::Packed) defines["PACKED"] = "1";
   if (peels) defines["PEEL"] = "1";
   if (vertexWords > 0) {
     defines["LISTED"] = "1";
     defines["POSITION_WORDS"] = std::to_string(vertexWords) + "u";
   }
   return context.programs().compute("renderer/frame/compute_raster.comp.glsl", defines);
+}
+
+gl::ShaderDefines finishDefines(bool ids, bool packed) {
+  gl::ShaderDefines defines;
+  if (ids) defines["IDS"] = "1";
+  if (packed) defines["PACKED"] = "1";
+  return defines;
 }
 
 }  // namespace
@@ -47,37 +58,50 @@ Raster chosenRaster(Raster raster, const gl::Context& context) {
   return context.device().software ? Raster::Hardware : Raster::Compute;
 }
 
-ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels)
-    : ComputeRaster(context, sizePx, withIds, peels, 0) {}
+ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels,
+                             TriangleSearch search)
+    : ComputeRaster(
+          context, sizePx, withIds, peels, 0,
+          withIds && (search == TriangleSearch::Auto ? canPack() : search == TriangleSearch::Packed)) {}
 
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords)
-    : ComputeRaster(context, sizePx, true, false, vertexWords) {}
+    : ComputeRaster(context, sizePx, true, false, vertexWords, canPack()) {}
 
 ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels,
-                             int vertexWords)
-    : smallDepth_{&program(context, false, false, peels, vertexWords, kShared),
-                  &program(context, false, false, peels, vertexWords, kAlone)},
-      largeDepth_(program(context, true, false, peels, vertexWords, kShared)),
+                             int vertexWords, bool packed)
+    : smallDepth_{&program(context, false, packed ? Gathers::Packed : Gathers::Depths, peels, vertexWords,
+                           kShared),
+                  &program(context, false, packed ? Gathers::Packed : Gathers::Depths, peels, vertexWords,
+                           kAlone)},
+      largeDepth_(
+          program(context, true, packed ? Gathers::Packed : Gathers::Depths, peels, vertexWords, kShared)),
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
-                                         withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
+                                         finishDefines(withIds, packed))),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
       depth_(gl::Format::R32F, sizePx),
       queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
-      depthBits_(int64_t{4} * sizePx.x * sizePx.y, nullptr) {
+      depthBits_(int64_t{packed ? 8 : 4} * sizePx.x * sizePx.y, nullptr) {
   // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
   queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (!withIds) return;
-  smallIds_ = {&program(context, false, true, peels, vertexWords, kShared),
-               &program(context, false, true, peels, vertexWords, kAlone)};
-  largeIds_ = &program(context, true, true, peels, vertexWords, kShared);
   ids_.emplace(gl::Format::R32UI, sizePx);
+  if (packed) return;
+  smallIds_ = {&program(context, false, Gathers::Ids, peels, vertexWords, kShared),
+               &program(context, false, Gathers::Ids, peels, vertexWords, kAlone)};
+  largeIds_ = &program(context, true, Gathers::Ids, peels, vertexWords, kShared);
   idBits_.emplace(depthBits_.bytes(), nullptr);
   idBits_->clearUint(kNoTriangle);
 }
 
+bool ComputeRaster::canPack() {
+  return epoxy_has_gl_extension("GL_NV_shader_atomic_int64") &&
+         epoxy_has_gl_extension("GL_ARB_gpu_shader_int64");
+}
+
 int64_t ComputeRaster::bytes() const {
-  return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() + idBits_->bytes() : 0);
+  return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() : 0) +
+         (idBits_ ? idBits_->bytes() : 0);
 }
 
 void ComputeRaster::dispatchSmall(const Programs& small, uint32_t triangleCount) const {
@@ -107,10 +131,10 @@ void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) 
     large.dispatch({kLargeGroups, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
+  if (ids_) ids_->bindImage(kRasterIdsImage, gl::Access::Write);
   pass(smallDepth_, largeDepth_);
-  if (ids_) {
+  if (idBits_) {
     idBits_->bindStorage(kRasterIdsBuffer);
-    ids_->bindImage(kRasterIdsImage, gl::Access::Write);
     requeue_.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     pass(smallIds_, *largeIds_);

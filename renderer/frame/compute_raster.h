@@ -40,6 +40,13 @@ struct ListedTriangles {
   const gl::Buffer& count;  ///< RasterCount (frame_bindings.h)
 };
 
+/// How ComputeRaster finds the triangle that each pixel sees.
+enum class TriangleSearch {
+  Auto,       ///< Packed where the device can (GL_NV_shader_atomic_int64)
+  TwoPasses,  ///< the depths of all triangles, then the triangle of that depth, the first of several
+  Packed      ///< at once, by atomic operations on depth and index in 64 bits; the same result
+};
+
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
 /// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views
 /// without a far plane.
@@ -54,7 +61,8 @@ struct ListedTriangles {
 class ComputeRaster {
  public:
   /// `peels`: draw() is given what to peel off.
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels = false);
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels = false,
+                TriangleSearch search = TriangleSearch::Auto);
   /// For drawListed() alone, with ids: `vertexWords` floats a vertex, of which the first three are its
   /// position.
   ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords);
@@ -67,22 +75,26 @@ class ComputeRaster {
   const gl::Texture& depth() const { return depth_; }  ///< R32F
   const gl::Texture& ids() const { return *ids_; }     ///< R32UI
   int64_t bytes() const;
+  static bool canPack();  ///< of the current context
 
  private:
   /// Of small triangles that invocations share, and of those of one invocation each.
   using Programs = std::array<const gl::Program*, 2>;
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels, int vertexWords);
-  /// Both passes; `small` dispatches one of the programs that it is given over all triangles.
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels, int vertexWords,
+                bool packed);
+  /// All passes; `small` dispatches one of the programs that it is given over all triangles.
   template <class Small>
   void run(const glm::mat4& clip, double near, const Small& small) const;
   void dispatchSmall(const Programs& small, uint32_t triangleCount) const;
 
-  Programs smallDepth_, smallIds_ = {};
+  /// With the indices if they are packed.
+  Programs smallDepth_;
+  Programs smallIds_ = {};
   const gl::Program &largeDepth_, &finish_, &requeue_;
   const gl::Program* largeIds_ = nullptr;
   gl::Texture depth_;
   std::optional<gl::Texture> ids_;
-  gl::Buffer queue_, depthBits_;
+  gl::Buffer queue_, depthBits_;  ///< packed: 64 bits a pixel
   std::optional<gl::Buffer> idBits_;
 };
 

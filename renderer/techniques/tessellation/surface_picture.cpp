@@ -51,6 +51,8 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
         context.programs().compute("renderer/techniques/tessellation/surface_resolve.comp.glsl");
     compute_.emplace(Compute{resolve, frame::ComputeRaster(context, frame.sizePx(), true),
                              frame::ComputeRaster(context, frame.sizePx(), kVertexWords)});
+    // Nothing to see, once and for all, where all parts are made of patches.
+    compute_->mesh.draw({frame.gpuScene(), &mesh_, nullptr}, glm::mat4(1.0F), 1.0);
   }
   frame.passes().setBytesHeld(pass_ + "/raster",
                               ids_.bytes() + normals_.bytes() + depth_.bytes() +
@@ -87,7 +89,8 @@ void SurfacePicture::renderListed(frame::Frame& frame, const frame::ListedTriang
   {
     const auto scope = frame.passes().open(pass_ + "/raster");
     const glm::mat4 clip = frame::anchorToClip(frame);
-    compute_->mesh.draw({frame.gpuScene(), &mesh_, nullptr}, clip, frame::nearPlane(frame));
+    if (mesh_.triangleCount() > 0)
+      compute_->mesh.draw({frame.gpuScene(), &mesh_, nullptr}, clip, frame::nearPlane(frame));
     compute_->surface.drawListed(triangles, clip, frame::nearPlane(frame));
     const gl::Program& resolve = compute_->resolve;
     resolve.set("sizePx", frame.sizePx());
