@@ -108,6 +108,8 @@ const uint kPatternCountsBuffer = 5u;
 const uint kPatternOffsetsBuffer = 6u;
 const uint kPatternInstancesBuffer = 7u;
 const uint kPatternCommandsBuffer = 7u;
+const uint kGapStripsBuffer = 5u;
+const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
