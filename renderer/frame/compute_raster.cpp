@@ -11,6 +11,7 @@ namespace {
 /// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
+constexpr int kLargeGroups = 4096;
 /// Invocations that share a triangle whose bounding box has at most `pixels`; larger ones are queued, and
 /// cost a group each at least.
 struct Sharing {
@@ -68,9 +69,10 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const Comp
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
                                          finishDefines(settings.ids, packed_))),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
-      queue_(kQueueCapacity),
+      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
       depthBits_(int64_t{packed_ ? 8 : 4} * sizePx.x * sizePx.y, nullptr) {
   // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
+  queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (settings.textures) depth_.emplace(gl::Format::R32F, sizePx);
   if (!settings.ids) return;
@@ -123,8 +125,8 @@ void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) 
   }
   const auto pass = [&](const Programs& programs, const gl::Program& large) {
     small(programs);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    queue_.dispatch(large);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    large.dispatch({kLargeGroups, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
   pass(smallDepth_, largeDepth_);

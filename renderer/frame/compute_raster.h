@@ -6,7 +6,6 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/frame/gpu_scene.h"
-#include "renderer/frame/raster_queue.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
@@ -109,8 +108,7 @@ class ComputeRaster {
   const gl::Program &largeDepth_, &finish_, &requeue_;
   const gl::Program* largeIds_ = nullptr;
   std::optional<gl::Texture> depth_, ids_;
-  RasterQueue queue_;
-  gl::Buffer depthBits_;  ///< packed: 64 bits a pixel
+  gl::Buffer queue_, depthBits_;  ///< packed: 64 bits a pixel
   std::optional<gl::Buffer> idBits_;
 };
 
