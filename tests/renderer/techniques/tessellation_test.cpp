@@ -7,6 +7,7 @@
 #include "renderer/surfaces/factors.h"
 #include "renderer/surfaces/other_patterns.h"
 #include "renderer/surfaces/surface_errors.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -157,6 +158,59 @@ TEST_F(Tessellation, FactorsAreThoseOfTheBoundsInDoublePrecision) {
     }
   }
   EXPECT_GT(compared, 500);
+}
+
+// Those whose factor, in double precision and without a limit, is above the limit.
+TEST_F(Tessellation, PatchesThatNeedMoreSegmentsThanAllowedAreCounted) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const auto segmentsFor = [&](int64_t most) {
+    Given given = {{"factors", std::string("deviation")},
+                   {"factors.tolerance_px", 0.1},
+                   {"factors.triangle_rule", std::string("pn_safe")},
+                   {"factors.most", most},
+                   {"cull", false}};
+    return given;
+  };
+  const frame::GpuScene gpuScene(torus);
+  frame::Frame frame(context(), torus, gpuScene, {320, 240});
+  const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+  const auto capped = [&](int64_t most) {
+    const auto technique = info.make(ParameterValues(info.parameters, segmentsFor(most)));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    for (const Counter& counter : technique->count(frame))
+      if (counter.name == "patches_capped") return counter.value;
+    return -1.0;
+  };
+  EXPECT_EQ(capped(64), 0);
+  // One factor for all sides of a triangle.
+  std::vector<double> needed;
+  const surfaces::PatchSet& set = torus.surfaces;
+  const surfaces::SurfaceView view = viewOf(frame);
+  for (const surfaces::Patch& patch : set.patches) {
+    double depth = 1e300;
+    for (uint32_t i = 0; i < 10; ++i)
+      depth =
+          std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - view.eye, view.forward));
+    const double eps = surfaces::objectTolerance(0.1, depth, frame.tanHalfFov(), 240);
+    needed.push_back(std::sqrt(surfaces::constantOf(surfaces::PnBound::Safe) *
+                               surfaces::largestTangentDistance(set, patch) / eps));
+  }
+  std::vector<double> sorted = needed;
+  std::sort(sorted.begin(), sorted.end());
+  for (const size_t quarter : {1, 2, 3}) {
+    const int most = static_cast<int>(sorted[quarter * sorted.size() / 4]);
+    const auto more = [&](double by) {
+      return double(std::count_if(needed.begin(), needed.end(), [&](double n) { return n > most + by; }));
+    };
+    EXPECT_GT(more(0.0), 20) << most;
+    EXPECT_LT(more(0.0), double(needed.size())) << most;
+    // Between those that are out of rounding's reach.
+    EXPECT_GE(capped(most), more(1e-4)) << most;
+    EXPECT_LE(capped(most), more(-1e-4)) << most;
+  }
 }
 
 TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {

@@ -260,7 +260,7 @@ class ComputeTessellation : public Technique {
     return out;
   }
 
-  std::vector<Counter> count(frame::Frame&) override {
+  std::vector<Counter> count(frame::Frame& frame) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
@@ -269,6 +269,7 @@ class ComputeTessellation : public Technique {
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
     return {
         {"patches_culled", culled},
+        {"patches_capped", double(factors_->countCapped(frame))},
         {"patches_left_out", double(totals.overflow)},
         {"tessellated_vertices", double(totals.vertices)},
         {"tessellated_triangles", double(readTriangles(totals).size())},
@@ -283,6 +284,8 @@ class ComputeTessellation : public Technique {
   static std::vector<Quantity> quantities() {
     return {
         {"patches_culled", "Patches culled", "patches", Direction::Neither},
+        {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+         Direction::LowerIsBetter},
         {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
         {"tessellated_vertices", "Vertices made", "vertices", Direction::LowerIsBetter},
         {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},

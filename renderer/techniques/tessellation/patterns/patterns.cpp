@@ -135,6 +135,7 @@ class RefinementPatterns : public Technique {
     }
     const double calls = batches_ ? 1.0 : static_cast<double>(commands_.size());
     return {{"patches_culled", culled},
+            {"patches_capped", double(factors_->countCapped(frame))},
             {"patches_left_out", double(leftOut_)},
             {"tessellated_triangles", double(triangles)},
             {"draw_calls", calls},
@@ -242,6 +243,8 @@ const RegisteredTechnique<RefinementPatterns> kRefinementPatternsRegistered{
      .needs = {"curved_surfaces"},
      .counters = {
          {"patches_culled", "Patches culled", "patches", Direction::Neither},
+         {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+          Direction::LowerIsBetter},
          {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
          {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
          {"draw_calls", "Draw calls", "", Direction::LowerIsBetter},
