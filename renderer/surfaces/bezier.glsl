@@ -99,11 +99,14 @@ BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
   return jet;
 }
 
-// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis().
+// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). Whoever calls this must keep the result in a
+// variable that is `precise` too: NVIDIA's compiler regroups the products otherwise, where the result is passed to a function
+// that it does not inline, and the polynomials no longer mirror each other.
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
-  precise vec4 basis = vec4(ss * s, 3.0 * (t * ss), 3.0 * (tt * s), tt * t);
-  return basis;
+  precise float tss = t * ss, tts = tt * s;
+  precise float b0 = ss * s, b1 = 3.0 * tss, b2 = 3.0 * tts, b3 = tt * t;
+  return vec4(b0, b1, b2, b3);
 }
 vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
   precise vec4 outer = c0 * basis.x + c3 * basis.w;
@@ -113,8 +116,9 @@ vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
 }
 // The three of degree 2 and their sum.
 vec3 quadraticBasis(float t, float s) {
-  precise vec3 basis = vec3(s * s, 2.0 * (t * s), t * t);
-  return basis;
+  precise float ts = t * s;
+  precise float b0 = s * s, b1 = 2.0 * ts, b2 = t * t;
+  return vec3(b0, b1, b2);
 }
 vec4 quadraticSum(vec3 basis, vec4 c0, vec4 c1, vec4 c2) {
   precise vec4 outer = c0 * basis.x + c2 * basis.z;
@@ -157,9 +161,9 @@ void bicubicRow(int j, vec4 bu, vec3 du, out BicubicPoint p, out BicubicPoint u)
   u = 3.0 * quadraticSum(du, c1 - c0, c2 - c1, c3 - c2);
 }
 BicubicColumn bicubicColumn(float u, float rest) {
-  const vec4 bu = cubicBasis(u, rest);
-  const vec3 du = quadraticBasis(u, rest);
-  BicubicColumn c;
+  precise const vec4 bu = cubicBasis(u, rest);
+  precise const vec3 du = quadraticBasis(u, rest);
+  precise BicubicColumn c;
   bicubicRow(0, bu, du, c.p0, c.u0);
   bicubicRow(1, bu, du, c.p1, c.u1);
   bicubicRow(2, bu, du, c.p2, c.u2);
@@ -167,10 +171,12 @@ BicubicColumn bicubicColumn(float u, float rest) {
   return c;
 }
 BezierJet bicubicAt(BicubicColumn c, float v, float rest) {
-  const vec4 bv = cubicBasis(v, rest);
+  precise const vec4 bv = cubicBasis(v, rest);
+  precise const vec3 dv = quadraticBasis(v, rest);
+  precise const BicubicPoint value = cubicSum(bv, c.p0, c.p1, c.p2, c.p3);
   return BezierJet(
-      homogeneousPoint(cubicSum(bv, c.p0, c.p1, c.p2, c.p3)), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
-      homogeneousDerivative(3.0 * quadraticSum(quadraticBasis(v, rest), c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
+      homogeneousPoint(value), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
+      homogeneousDerivative(3.0 * quadraticSum(dv, c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
       vec4(0.0), vec4(0.0), vec4(0.0));
 }
 

@@ -108,18 +108,22 @@ const uint kPatternCountsBuffer = 5u;
 const uint kPatternOffsetsBuffer = 6u;
 const uint kPatternInstancesBuffer = 7u;
 const uint kPatternCommandsBuffer = 7u;
+const uint kGapStripsBuffer = 5u;
+const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
 const uint kSurfaceNormalsUnit = 1u;
-const uint kResolveMeshIdsUnit = 0u;
-const uint kResolveMeshDepthUnit = 1u;
-const uint kResolveSurfaceIdsUnit = 2u;
-const uint kResolveSurfaceDepthUnit = 3u;
 const uint kResolveIdsImage = 0u;
 const uint kResolveNormalsImage = 1u;
 const uint kResolveVerticesBuffer = 0u;
 const uint kResolveIndicesBuffer = 1u;
+const uint kResolveSurfaceDepthsBuffer = 2u;
+const uint kResolveSurfaceIdsBuffer = 3u;
+const uint kResolveSurfaceQueueBuffer = 4u;
+const uint kResolveMeshDepthsBuffer = 5u;
+const uint kResolveMeshIdsBuffer = 6u;
+const uint kResolveMeshQueueBuffer = 7u;
 const uint kSurfacePictureImage = 0u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
 

@@ -40,7 +40,9 @@ TEST_F(RecursionTechniques, QueuesMakeThePartsOfTheRecursionInDouble) {
                              {"flatness", std::string(flatness)},
                              {"split", std::string(split)}};
         const Rendered cpu = render(scene, "recursion/cpu", given, kSize, true);
-        const Rendered queues = render(scene, "recursion/queues", given, kSize, true);
+        Given undiced = given;
+        undiced["grid"] = int64_t{1};
+        const Rendered queues = render(scene, "recursion/queues", undiced, kSize, true);
         EXPECT_EQ(queues.counter("parts_left_out"), 0);
         EXPECT_GT(cpu.counter("faces"), 50);
         EXPECT_NEAR(queues.counter("faces"), cpu.counter("faces"), 2 + 0.005 * cpu.counter("faces"))
@@ -55,10 +57,26 @@ TEST_F(RecursionTechniques, QueuesMakeThePartsOfTheRecursionInDouble) {
 TEST_F(RecursionTechniques, FullQueuesDrawCoarserParts) {
   const scene::Scene scene = makeScene("curved/teapot");
   const Rendered made =
-      render(scene, "recursion/queues", {{"tolerance_px", 0.1}, {"capacity", int64_t{1024}}, {"cull", false}},
+      render(scene, "recursion/queues",
+             {{"tolerance_px", 0.1}, {"grid", int64_t{1}}, {"capacity", int64_t{1024}}, {"cull", false}},
              kSize, true);
   EXPECT_GT(made.counter("parts_cut_short") + made.counter("parts_left_out"), 0);
   EXPECT_LE(made.counter("faces"), 256);
+}
+
+// The tolerance is that of cells: dicing takes the place of splits, not of accuracy.
+TEST_F(RecursionTechniques, DicedPartsNeedFewerTestsForTheSameError) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered exact = render(scene, "tessellation/uniform_fine", {{"segments", int64_t{64}}}, {320, 240});
+  std::vector<double> errors, tests;
+  for (const int64_t grid : {1, 4}) {
+    const Rendered made =
+        render(scene, "recursion/queues", {{"tolerance_px", 0.25}, {"grid", grid}}, {320, 240}, true);
+    errors.push_back(meanDifference(exact.product, made.product));
+    tests.push_back(made.counter("parts_tested"));
+  }
+  EXPECT_LT(errors[1], 1.2 * errors[0]);
+  EXPECT_LT(tests[1], 0.2 * tests[0]);
 }
 
 TEST_F(RecursionTechniques, TheSurfaceReadBackIsExact) {

@@ -5,6 +5,9 @@
 // - Finished parts leave the queue at once, as the thesis advises; they are not looked at again.
 // - A part is a piece of the domain: its control points come from the patch in each round, so that errors do
 // not add up.
+// - Parts that are nearly flat are diced as well, by default into 4 x 4 cells, with a tolerance for the
+// cells: at
+//   equal error that takes a fraction of the parts tested.
 // - Where a queue is full, parts are drawn as they are, and counted.
 // - Nothing is done about cracks, as there; `recursion/cpu` with `split: restricted` closes them.
 // Parts come in no particular order, so that buffers differ from run to run; the picture does not.
@@ -36,10 +39,10 @@ constexpr EnumNames<QueueSplit, 2> enumNames(QueueSplit) {
 }
 
 struct QueueSettings {
-  double tolerancePx = 0.5;
+  double tolerancePx = 0.25;
   QueueFlatness flatness = QueueFlatness::ControlToChord;
   QueueSplit split = QueueSplit::Quarters;
-  int grid = 1;
+  int grid = 4;
   int mostSteps = 14;
   bool cull = true;
   int64_t capacity = 1 << 21;
@@ -51,7 +54,7 @@ struct QueueSettings {
          "tolerance_px",
          {0.05, 100},
          "px",
-         "Flatness, or extent, at which a part is finished",
+         "Flatness of a finished part's cells, or extent of the part",
          "Schwarz 2009 (flatness 0.5; extent 8)"},
         {&S::flatness, "flatness", "What of a part is measured", "Schwarz 2009, section 7.2.1"},
         {&S::split, "split", "How a rectangle is split; triangles always into four",
@@ -196,6 +199,14 @@ class QueueRecursion : public Technique {
     return out;
   }
 
+  /// Of a part before it is diced: cells of a smooth surface deviate less by the square of their number along
+  /// a side.
+  double partTolerance() const {
+    return settings_.flatness == QueueFlatness::Extent
+               ? settings_.tolerancePx
+               : settings_.tolerancePx * settings_.grid * settings_.grid;
+  }
+
   void split(frame::Frame& frame) {
     const auto scope = frame.passes().open("recursion/split");
     RecursionCounters start{};
@@ -207,7 +218,7 @@ class QueueRecursion : public Technique {
     splitProgram_->set("anchorToClip", frame::anchorToClip(frame));
     splitProgram_->set("halfSize", half);
     splitProgram_->set("nearest", static_cast<float>(frame::nearPlane(frame)));
-    splitProgram_->set("tolerance", static_cast<float>(settings_.tolerancePx));
+    splitProgram_->set("tolerance", static_cast<float>(partTolerance()));
     splitProgram_->set("partCapacity", capacity_);
     splitProgram_->set("mostSteps", static_cast<uint32_t>(settings_.mostSteps));
     splitProgram_->set("cull", settings_.cull ? 1 : 0);
@@ -263,7 +274,7 @@ class QueueRecursion : public Technique {
 
 const RegisteredTechnique<QueueRecursion> kQueueRecursionRegistered{
     {.name = "recursion/queues",
-     .version = 1,
+     .version = 2,
      .summary =
          "Curved surfaces split recursively in compute queues until parts are flat or small, then diced",
      .source = "Patney and Owens 2008; Schwarz 2009, section 7.2.5 (SC-38, SC-44)",

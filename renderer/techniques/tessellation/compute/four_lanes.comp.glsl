@@ -25,9 +25,9 @@ float quadratic(float a, float b, float c, vec3 basis) {
 
 // Of one component: value, derivatives along u and v.
 vec3 componentAt(vec4 at) {
-  const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
-  const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
-  float p[4], u[4];
+  precise const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
+  precise const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
+  precise float p[4], u[4];
   for (int j = 0; j < 4; ++j) {
     const float a = controlPoint(4 * j), b = controlPoint(4 * j + 1), c = controlPoint(4 * j + 2), d = controlPoint(4 * j + 3);
     p[j] = cubic(a, b, c, d, bu);
