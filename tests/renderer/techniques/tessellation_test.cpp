@@ -483,6 +483,56 @@ TEST_F(TessellatedSurfaces, InvocationsThatShareAPatchMakeTheSameOfIt) {
     }
 }
 
+/// The vertex shader makes each vertex from a stored patch and sample (SC-76): on the surface, without
+/// cracks, and the picture of vertices stored.
+TEST_F(TessellatedSurfaces, TheVertexShaderEvaluatesStoredSamples) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string form : {"patch_parallel", "vertex_parallel"}) {
+      const Given given = text({{"form", form}, {"evaluation", "vertex_shader"}});
+      const auto surface = made(scene, given);
+      ASSERT_GT(surface->positions.size(), 1000U) << form;
+      EXPECT_LT(largestError(scene, *surface), 1e-5) << form;
+      EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).p99, 0.1) << form;
+      expectNoCracks(scene, *surface, form);
+      const Image stored = render(scene, "tessellation/compute", {}, {96, 72}).product;
+      EXPECT_LT(meanDifference(stored, render(scene, "tessellation/compute", given, {96, 72}).product), 1e-6)
+          << form;
+    }
+}
+
+/// Passes beside the one that is shown change no picture, whatever they draw (SC-75); neither does a coarse
+/// mesh drawn first (SC-64). Triangles stored by transform feedback take three vertices each.
+TEST_F(Tessellation, SeveralPassesShowWhatOneDoes) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const auto whole = [](const char* name, int64_t value) {
+    return std::pair<std::string, ParameterValue>(name, value);
+  };
+  const Rendered one =
+      render(scene, "tessellation/patterns", {{"patterns", std::string("integer")}}, {96, 72}, true);
+  const Rendered compute = render(scene, "tessellation/compute",
+                                  {{"raster", std::string("hardware")}, whole("passes", 3)}, {96, 72}, true);
+  EXPECT_LT(meanDifference(one.product, compute.product), 1e-6);
+  for (const int64_t passes : {1, 2, 5})
+    for (const char* reuse : {"evaluate", "soup"})
+      for (const bool coarseFirst : {false, true}) {
+        if (coarseFirst && std::string(reuse) == "soup") continue;
+        const Rendered made = render(scene, "tessellation/patterns",
+                                     {{"patterns", std::string("integer")},
+                                      {"reuse", std::string(reuse)},
+                                      {"coarse_first", coarseFirst},
+                                      whole("passes", passes)},
+                                     {96, 72}, true);
+        EXPECT_LT(meanDifference(one.product, made.product), 1e-6) << passes << reuse << coarseFirst;
+        EXPECT_EQ(made.counter("soup_left_out"), 0);
+        EXPECT_NEAR(
+            made.counter("soup_mib"),
+            std::string(reuse) == "soup" ? compute.counter("tessellated_triangles") * 96 / 1048576.0 : 0.0,
+            1e-9);
+      }
+}
+
 /// Spacings of real factors, with sides that run in all combinations of directions.
 TEST_F(TessellatedSurfaces, AllSpacingsAreWithoutCracks) {
   const scene::Scene scene = makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}});
@@ -542,7 +592,11 @@ TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
   };
   refused("tessellation/compute", text({{"form", "vertex_parallel"}, {"evaluation", "forward_differences"}}));
   refused("tessellation/compute", text({{"form", "four_threads"}, {"spacing", "geomorph"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"raster", "compute"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"spacing", "geomorph"}}));
   refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
+  refused("tessellation/patterns", {{"draw", std::string("multi_draw")}, {"coarse_first", true}});
+  refused("tessellation/patterns", {{"reuse", std::string("soup")}, {"coarse_first", true}});
   // Known with the scene alone.
   EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
 }

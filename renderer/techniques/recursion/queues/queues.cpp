@@ -17,10 +17,10 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/recursion/recursion_bindings.h"
-#include "renderer/techniques/recursion/vertex_array.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
