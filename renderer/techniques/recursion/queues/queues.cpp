@@ -21,6 +21,7 @@
 #include "renderer/techniques/recursion/recursion_bindings.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 
 namespace limen::techniques {
