@@ -15,7 +15,8 @@ const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
 struct TessellatedPatch {  // std430
   uint firstPoint, firstNormal;
-  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the normals
+  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the
+               // normals, 3: 5 of a rectangle
   uint material;
   ivec4 neighbours;  // of each side: of what lies along it 8 patch + 2 side + (1: it runs the other way); -1:
                      // none

@@ -7,6 +7,7 @@
 
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/curved/teapot.h"
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/pn_set.h"
 #include "renderer/surfaces/surface_errors.h"
