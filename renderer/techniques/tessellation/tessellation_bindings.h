@@ -68,19 +68,16 @@ const uint kRungCornerPlane = 3u;  // area vector of the corners
 const uint kRungNone = 4u;
 const int kRungs = 5;
 
-// What is written and drawn, and by how many groups. std430.
+// What is written and drawn. std430.
 struct TessellationTotals {
-  uint groupsX, groupsY, groupsZ;                                 // of vertices
-  uint indexGroupsX, indexGroupsY, indexGroupsZ;                  // of indices
-  uint vertices, patches;                                         // patches that fit
+  uint vertices, patches;        // patches that fit
+  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
   uint indices, instances, firstIndex, baseVertex, baseInstance;  // DrawElementsIndirectCommand
   uint overflow;                                                  // patches that do not fit
   uint neededVertices, neededIndices;
-  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
-  uint unused0, unused1;
 };
 #ifdef __cplusplus
-static_assert(sizeof(TessellationTotals) == 80 && offsetof(TessellationTotals, indices) == 32);
+static_assert(sizeof(TessellationTotals) == 48 && offsetof(TessellationTotals, indices) == 16);
 #endif
 
 // DrawElementsIndirectCommand.
