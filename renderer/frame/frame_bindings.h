@@ -46,8 +46,9 @@ const uint kSurfacePatchesBuffer = 7u;
 
 // ComputeRaster.
 struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the band in its bounding box
-  uint queued;
-  uint padding[3];
+  uint queued;              // bands; an indirect dispatch of a group each
+  uint groupsY, groupsZ;    // 1
+  uint unused;
 };
 #ifdef __cplusplus
 static_assert(sizeof(RasterQueueHeader) == 16);

@@ -14,7 +14,6 @@ namespace {
 
 /// As for ComputeRaster: row bands of large triangles.
 constexpr int kSampleQueueCapacity = 1 << 19;
-constexpr int kSampleLargeGroups = 4096;
 /// Invocations that share a triangle of few pixels, and how many these are in its bounding box: each pixel
 /// waits for what is known of it.
 constexpr int kSmallLanes = 4, kSmallPixels = 32;
@@ -86,13 +85,12 @@ SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places, SampleSe
       finish_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size())),
       reach_(gl::Format::R32F, frame.sizePx()),
       marks_(gl::Format::R32UI, frame.sizePx()),
-      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kSampleQueueCapacity} * 8, nullptr),
+      queue_(kSampleQueueCapacity),
       list_(int64_t{sizeof(SampleListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr),
       depths_(int64_t{4} * frame.sizePx().x * frame.sizePx().y * static_cast<int64_t>(places_.size()),
               nullptr),
       ids_(depths_.bytes(), nullptr) {
   // Every frame begins by clearing what the one before listed.
-  queue_.clearUint(0);
   list_.clearUint(0);
   depths_.clearUint(0);
   ids_.clearUint(TriangleIds::kNone);
@@ -122,9 +120,9 @@ void SampleRaster::overTriangles(Frame& frame, const gl::Program& small, const g
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
   } else {
     dispatchOverTriangles(small, int64_t{kSmallLanes} * frame.geometry().triangleCount());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   }
-  large.dispatch({kSampleLargeGroups, 1}, {1, 1});
+  queue_.dispatch(large);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
@@ -139,13 +137,7 @@ void SampleRaster::listByTriangles(Frame& frame) const {
 
 void SampleRaster::listByNeighbours(Frame& frame) const {
   const Neighbours& with = *neighbours_;
-  const glm::dmat4& toCamera = frame.anchorToCamera();
-  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
-  with.mark.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-  with.mark.set("anchorToCamera", glm::mat4(toCamera));
-  with.mark.set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
-  with.mark.set("tolerance", static_cast<float>(with.surface.tolerance));
-  with.mark.set("cosine", static_cast<float>(std::cos(glm::radians(with.surface.angleDeg))));
+  setMarkUniforms(with.mark, frame, places_, with.surface);
   with.tiles.bindImage(kSampleRasterTilesImage, gl::Access::Write);
   with.mark.dispatch(frame.sizePx());
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -162,6 +154,22 @@ void SampleRaster::listByNeighbours(Frame& frame) const {
   ids_.bindStorage(kRasterIdsBuffer);
   with.kept.bindStorage(kSampleRasterKeptTrianglesBuffer);
   overTriangles(frame, smallDepth_, largeDepth_);
+}
+
+void setMarkUniforms(const gl::Program& program, const Frame& frame, const std::vector<glm::vec2>& places,
+                     const SameSurface& surface) {
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  program.set("anchorToClip", anchorToClip(frame));
+  program.set("near", static_cast<float>(nearPlane(frame)));
+  program.set("sizePx", frame.sizePx());
+  for (size_t i = 0; i < places.size(); ++i)
+    program.set(("samplePlaces[" + std::to_string(i) + "]").c_str(), places[i]);
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("anchorToCamera", glm::mat4(toCamera));
+  program.set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
+  program.set("tolerance", static_cast<float>(surface.tolerance));
+  program.set("cosine", static_cast<float>(std::cos(glm::radians(surface.angleDeg))));
 }
 
 void dispatchOverSampleList(const gl::Program& program, const gl::Buffer& list) {
@@ -182,9 +190,8 @@ void SampleRaster::draw(Frame& frame, const std::string& pass) const {
   const gl::Texture& centreIds = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);
   const Geometry geometry = frame.geometry();
-  for (const gl::Program* each :
-       {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_, &finish_,
-        neighbours_ ? &neighbours_->mark : nullptr, neighbours_ ? &neighbours_->keep : nullptr}) {
+  for (const gl::Program* each : {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_,
+                                  &finish_, neighbours_ ? &neighbours_->keep : nullptr}) {
     if (!each) continue;
     each->set("anchorToClip", anchorToClip(frame));
     each->set("near", static_cast<float>(nearPlane(frame)));

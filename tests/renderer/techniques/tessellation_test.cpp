@@ -283,9 +283,59 @@ TEST_F(Tessellation, StripsCloseTheGapsBetweenLevels) {
     EXPECT_GT(closed.counter("sides_stitched"), 20);
     EXPECT_GT(closed.counter("strip_triangles"), 2 * closed.counter("sides_stitched"));
     EXPECT_EQ(gaps.counter("strip_triangles"), 0);
+    EXPECT_EQ(closed.counter("crack_pixels"), 0);
+    EXPECT_GT(gaps.counter("crack_pixels"), 0);
     EXPECT_GT(wrongPixels(gaps.product), wrongPixels(closed.product));
     EXPECT_LE(wrongPixels(closed.product), elsewhere);
   }
+}
+
+/// A drum whose lids end in straight lines and whose side in arcs: strips fill the lids up to the arcs, with
+/// the lids' normals, at all levels and pairs of them.
+TEST_F(Tessellation, StripsCloseTheGapsAtCreases) {
+  const scene::Scene drum = makeScene("curved/hard_case", {{"case", std::string("drum")}});
+  for (const double tolerance : {0.1, 0.5, 1.0, 4.0}) {
+    Given given = {{"factors", std::string("deviation")}, {"factors.tolerance_px", tolerance}};
+    const Rendered closed = render(drum, "tessellation/connected_patterns", given, {320, 240}, true);
+    given["close_gaps"] = false;
+    const Rendered open = render(drum, "tessellation/connected_patterns", given, {320, 240}, true);
+    EXPECT_GT(open.counter("crack_pixels"), 500);
+    EXPECT_EQ(open.counter("gaps_closed"), 0);
+    EXPECT_EQ(closed.counter("crack_pixels"), 0) << tolerance;
+    EXPECT_EQ(closed.counter("gaps_closed"), 24);
+  }
+}
+
+/// The lid of a drum is flat: its colour changes slowly up to the rim, as it does not where strips take the
+/// side's normals or are not there.
+TEST_F(Tessellation, StripsAtCreasesTakeTheNormalsOfTheFaceThatTheyContinue) {
+  // From above, so that the lid fills the picture's middle; its radius is 0.6.
+  const scene::Scene drum =
+      makeScene("curved/hard_case", {{"case", std::string("drum")},
+                                     {"camera", std::string("view")},
+                                     {"camera.text", std::string("eye 0 3.9 0.001 target 0 0.9 0 fov 40")}});
+  const glm::ivec2 size(240, 240);
+  const Rendered closed = render(drum, "tessellation/connected_patterns", {}, size, true);
+  const Rendered open = render(drum, "tessellation/connected_patterns", {{"close_gaps", false}}, size, true);
+  const double radiusPx = 120.0 * 0.6 / (3.0 * std::tan(glm::radians(20.0)));
+  // Those of a circle that an inscribed polygon of 12 sides lacks.
+  const auto othersIn = [&](const Image& image, double radius) {
+    int out = 0;
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        if (glm::length(glm::dvec2(x - 119.5, y - 119.5)) > radius) continue;
+        // A tenth of the way towards the middle.
+        const auto inwards = [](int at) { return int(std::lround(119.5 + 0.9 * (at - 119.5))); };
+        double difference = 0.0;
+        for (int c = 0; c < 3; ++c)
+          difference += std::abs(double(image.at(x, y, c)) - image.at(inwards(x), inwards(y), c));
+        out += difference > 0.05;
+      }
+    return out;
+  };
+  EXPECT_GT(othersIn(open.product, radiusPx - 1.5), 50);
+  EXPECT_EQ(othersIn(closed.product, radiusPx - 1.5), 0);
+  EXPECT_EQ(othersIn(open.product, 0.95 * radiusPx), 0);
 }
 
 /// The surface that a technique makes in one frame.
@@ -353,6 +403,30 @@ TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
   const auto one = made(scene, {}), four = made(scene, text({{"form", "four_threads"}}));
   ASSERT_EQ(one->positions.size(), four->positions.size());
   EXPECT_EQ(std::memcmp(one->positions.data(), four->positions.data(), one->positions.size() * 12), 0);
+}
+
+/// However many invocations share a patch: vertices and triangles bit for bit, whether sides are divided
+/// alike or not, and for triangles as well.
+TEST_F(TessellatedSurfaces, InvocationsThatShareAPatchMakeTheSameOfIt) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string raster : {"hardware", "compute"}) {
+      const auto first = made(scene, text({{"form", "vertex_parallel"}, {"raster", raster}}));
+      ASSERT_GT(first->positions.size(), 1000U);
+      for (const int64_t lanes : {0, 4, 8, 32, 64, 256, 1024}) {
+        Given given = text({{"form", "patch_parallel"}, {"raster", raster}});
+        given.emplace("form.lanes", lanes);
+        const auto other = made(scene, given);
+        ASSERT_EQ(first->positions.size(), other->positions.size()) << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->positions.data(), other->positions.data(), first->positions.size() * 12),
+                  0)
+            << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->normals.data(), other->normals.data(), first->normals.size() * 12), 0)
+            << raster << lanes;
+        EXPECT_EQ(first->triangles, other->triangles) << raster << lanes;
+      }
+    }
 }
 
 /// Spacings of real factors, with sides that run in all combinations of directions.

@@ -5,8 +5,10 @@
 // - The host reads no totals back to resize its buffers: they have a declared capacity, and patches that do
 // not fit
 //   are left out and counted.
-// - `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in the offsets; with
-//   `patch_parallel` a work group shares a patch; `four_threads` is the thesis's form.
+// - With `patch_parallel` a power of two of invocations share a patch, as many as its vertices are worth,
+// which
+//   the GPU decides; `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in
+//   the offsets; `four_threads` is the thesis's form.
 // - Geomorphing evaluates the coarser level's vertices again in place of a pass over the buffers.
 // - Positions along sides are bitwise the same for both patches by the order of the sums (evaluate.glsl).
 // - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
@@ -26,11 +28,38 @@
 namespace limen::techniques {
 namespace {
 
-enum class SlotForm { VertexParallel, PatchParallel, FourThreads };
-constexpr EnumNames<SlotForm, 3> enumNames(SlotForm) {
-  return {{{{SlotForm::FourThreads, "four_threads"},
-            {SlotForm::PatchParallel, "patch_parallel"},
-            {SlotForm::VertexParallel, "vertex_parallel"}}}};
+/// Who makes vertices and indices.
+struct PatchParallel {
+  static constexpr const char *kKind = "patch_parallel", *kSummary = "some invocations for each patch";
+  int lanes = 0, verticesEach = 8;
+  static const SettingsTable<PatchParallel>& table() {
+    static const SettingsTable<PatchParallel> kTable = {
+        {&PatchParallel::lanes, "lanes", oneOf({0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}), "invocations",
+         "Invocations that share a patch. 0: the GPU decides, in each frame and for all patches, from the "
+         "mean "
+         "number of their vertices"},
+        {&PatchParallel::verticesEach,
+         "vertices_each",
+         {1, 64},
+         "vertices",
+         "Vertices of an invocation that the GPU's choice aims at; fewer where few patches would not occupy "
+         "a "
+         "GPU"}};
+    return kTable;
+  }
+};
+struct VertexParallel {
+  static constexpr const char *kKind = "vertex_parallel",
+                              *kSummary = "an invocation for each vertex, which searches for its patch";
+};
+struct FourThreads {
+  static constexpr const char *kKind = "four_threads",
+                              *kSummary = "four invocations a patch, one for each component (the thesis's)";
+};
+
+/// That occupy a GPU, of which an NVIDIA H200 runs 132 x 2048 at once, or a software renderer.
+uint32_t manyInvocations(const gl::Context& context) {
+  return context.device().software ? 1U << 8 : 1U << 18;
 }
 
 struct EvaluateDirectly {
@@ -63,7 +92,7 @@ constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
 
 struct ComputeTessellationSettings {
   FactorSettings tessellation;
-  SlotForm form = SlotForm::VertexParallel;
+  std::variant<PatchParallel, VertexParallel, FourThreads> form;
   Spacing spacing = Spacing::Integer;
   std::variant<EvaluateDirectly, EvaluateByDifferences> evaluation;
   SharedSides sides = SharedSides::Evaluated;
@@ -75,8 +104,7 @@ struct ComputeTessellationSettings {
     using S = ComputeTessellationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::tessellation),
-        {&S::form, "form",
-         "What makes vertices: an invocation each, a group a patch, or four invocations a patch",
+        {&S::form, "form", "How vertices and indices are shared out to invocations",
          "Schwarz 2009, section 7.6.1"},
         {&S::spacing, "spacing", "How a side is divided whose factor is no whole number",
          "Schwarz 2009, section 7.3.3"},
@@ -98,11 +126,13 @@ struct ComputeTessellationSettings {
     return kTable;
   }
   bool byDifferences() const { return std::holds_alternative<EvaluateByDifferences>(evaluation); }
+  bool vertexParallel() const { return std::holds_alternative<VertexParallel>(form); }
+  bool fourThreads() const { return std::holds_alternative<FourThreads>(form); }
   void check() const {
-    if (form == SlotForm::VertexParallel && byDifferences())
+    if (vertexParallel() && byDifferences())
       throw Error("forward differences need invocations that go along rows", "evaluation",
                   "use form: patch_parallel or four_threads");
-    if (spacing > Spacing::Dyadic && (form == SlotForm::FourThreads || byDifferences()))
+    if (spacing > Spacing::Dyadic && (fourThreads() || byDifferences()))
       throw Error("this form of evaluation takes equal steps", "spacing",
                   "use spacing: integer or dyadic, or another form and direct evaluation");
   }
@@ -120,23 +150,23 @@ class ComputeTessellation : public Technique {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
     requireRectangles(frame.scene());
+    requireInvocations();
     lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     factors_.emplace(frame, *patches_, settings_.tessellation, lists_, settings_.spacing);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
     picture_.emplace(frame, settings_.shading, "tessellation",
                      lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     gl::ShaderDefines defines = patches_->defines();
-    if (settings_.form == SlotForm::VertexParallel) defines["VERTEX_PARALLEL"] = "1";
+    if (settings_.vertexParallel()) defines["VERTEX_PARALLEL"] = "1";
     if (lists_) defines["LISTS"] = "1";
     defines["SPACING"] = std::to_string(static_cast<int>(settings_.spacing));
     if (settings_.byDifferences())
       defines["RESTART"] = std::to_string(std::get<EvaluateByDifferences>(settings_.evaluation).restart);
     if (settings_.sides == SharedSides::Copied) defines["COPIED"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
-    totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
-    const bool fourThreads = settings_.form == SlotForm::FourThreads;
-    verticesProgram_ =
-        &programs.compute(folder + (fourThreads ? "four_lanes.comp.glsl" : "vertices.comp.glsl"), defines);
+    totalsProgram_ = &programs.compute(folder + "totals.comp.glsl", defines);
+    verticesProgram_ = &programs.compute(
+        folder + (settings_.fourThreads() ? "four_lanes.comp.glsl" : "vertices.comp.glsl"), defines);
     if (settings_.sides == SharedSides::Copied)
       copyProgram_ = &programs.compute(folder + "copy_sides.comp.glsl", defines);
     indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
@@ -147,7 +177,8 @@ class ComputeTessellation : public Technique {
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
     capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
     vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
-    indices_.emplace(capacity_ * kIndicesPerVertex * 4, nullptr);
+    // Written by four words.
+    indices_.emplace((capacity_ * kIndicesPerVertex * 4 + 15) / 16 * 16, nullptr);
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
@@ -168,6 +199,7 @@ class ComputeTessellation : public Technique {
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
       totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
+      if (!settings_.vertexParallel()) setLanes(frame.context());
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
@@ -175,12 +207,9 @@ class ComputeTessellation : public Technique {
     factors_->factors().bindStorage(kFactorsBuffer);
     vertices_->bindStorage(kVerticesBuffer);
     indices_->bindStorage(kIndicesBuffer);
-    // Four invocations a patch are 16 patches a group.
-    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX),
-         settings_.form == SlotForm::FourThreads ? 4U : uint32_t(kTessellationGroup));
+    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
     if (copyProgram_) copySides(frame);
-    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX),
-         uint32_t(kTessellationGroup));
+    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
     if (lists_) {
       picture_->renderListed(frame, {*vertices_, *indices_, *count_});
       return;
@@ -301,19 +330,25 @@ class ComputeTessellation : public Technique {
     return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
   }
 
-  /// `perPatch`: invocations that a patch takes, unless each slot has one.
-  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups,
-            uint32_t perPatch) {
+  void setLanes(const gl::Context& context) const {
+    const auto* patchParallel = std::get_if<PatchParallel>(&settings_.form);
+    const auto given = static_cast<uint32_t>(patchParallel ? patchParallel->lanes : 0);
+    totalsProgram_->set("lanes", settings_.fourThreads() ? 4U : given);
+    totalsProgram_->set("indexLanes", given);
+    totalsProgram_->set("manyInvocations", manyInvocations(context));
+    totalsProgram_->set(
+        "verticesPerInvocation",
+        static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
+  }
+
+  /// `groups`: where in TessellationTotals.
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
     const auto scope = frame.passes().open(pass);
     program.use();
     program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    if (settings_.form == SlotForm::VertexParallel) {
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
-      glDispatchComputeIndirect(static_cast<GLintptr>(groups));
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-    } else {
-      dispatchPatches(perPatch);
-    }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(groups));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
@@ -321,15 +356,18 @@ class ComputeTessellation : public Technique {
     const auto scope = frame.passes().open("tessellation/sides");
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    dispatchPatches(4);
+    const uint32_t sides = patches_->count() * 4,
+                   groups = (sides + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup),
+                   rows = (groups + 65534) / 65535;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
-  void dispatchPatches(uint32_t perPatch) const {
-    const uint32_t groups =
-        (patches_->count() * perPatch + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
-    const uint32_t rows = (groups + 65534) / 65535;
-    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  void requireInvocations() const {
+    const auto* of = std::get_if<PatchParallel>(&settings_.form);
+    if (of && int64_t{of->lanes} * patches_->count() > 1LL << 31)
+      throw Error("too many invocations for " + std::to_string(patches_->count()) + " patches", "form.lanes",
+                  "use fewer, or 0");
   }
 
   void requireRectangles(const scene::Scene& scene) const {
@@ -401,7 +439,7 @@ class UniformFine : public Technique {
 
 const RegisteredTechnique<UniformFine> kUniformFineRegistered{
     {.name = "tessellation/uniform_fine",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces with the same fine tessellation of all patches",
      .source = "bench",
      .product = ProductKind::Colour,
@@ -412,7 +450,7 @@ const RegisteredTechnique<UniformFine> kUniformFineRegistered{
 
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
     {.name = "tessellation/compute",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces tessellated on the fly in compute shaders (CudaTess)",
      .source = "Schwarz 2009, section 7.6 (SC-69)",
      .product = ProductKind::Colour,

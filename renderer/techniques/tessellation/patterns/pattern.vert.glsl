@@ -1,18 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A stored pattern's vertex on the patch of its instance. ADAPTED: the pattern is uniform, and samples on a side go to the
 // nearest of the side's own (Schwarz 2009, section 7.5.4; SC-65, SC-66). CONNECTING: the pattern lies along a side alone, of
-// which there are 4 for each patch.
+// which there are 4 for each patch. GAPS: along two sides with the same ends.
 #include "renderer/techniques/tessellation/evaluate.glsl"
 
 layout(location = 0) in ivec4 sample_;
 layout(location = 1) in uint number;
 layout(std430, binding = kFactorsBuffer) readonly buffer Factors { PatchFactors factors[]; };
+#ifdef GAPS
+layout(std430, binding = kGapStripsBuffer) readonly buffer GapStrips { uvec2 gapStrips[]; };  // 4 patch + side, of both
+#endif
 uniform mat4 anchorToClip;
 out vec3 normal;
 out float distance_;
 flat out uint material;
 
+#ifdef GAPS
+TessellatedVertex sideVertex(uint side, int q, int n) {
+  const TessellatedPatch patch_ = patches[side / 4u];
+  const uint shape = shapeOf(patch_);
+  return surfaceVertex(patch_, domainPoint(shape, patternSideSample(isRectangle(shape) ? 1 : 0, int(side & 3u), q, n)));
+}
+
+// sample_: (q, segments, 1 on the other side, 0). Normals come from one of the two patches.
+TessellatedVertex gapVertex() {
+  const uvec2 strip = gapStrips[number];
+  const int q = sample_.x, n = sample_.y;
+  const TessellatedVertex own = sideVertex(strip.x & ~kGapNormalsOfOwn, q, n), other = sideVertex(strip.y, n - q, n);
+  TessellatedVertex vertex = (strip.x & kGapNormalsOfOwn) != 0u ? own : other;
+  vertex.position = sample_.z == 0 ? own.position : other.position;
+  return vertex;
+}
+#endif
+
 void main() {
+#ifdef GAPS
+  const TessellatedVertex vertex = gapVertex();
+#else
 #ifdef CONNECTING
   const TessellatedPatch patch_ = patches[number / 4u];
 #else
@@ -27,6 +51,7 @@ void main() {
   const ivec4 s = sample_;
 #endif
   const TessellatedVertex vertex = surfaceVertex(patch_, domainPoint(shape, s));
+#endif
   precise const vec4 clip = anchorToClip * vec4(vertex.position, 1.0);
   gl_Position = clip;
   normal = vertex.normal;
