@@ -91,7 +91,11 @@ class PathRefinement {
 
   void sample(uint32_t patch, dvec2 from, dvec2 to, int depth, Samples& out) {
     ++counts_.tests;
-    if (depth >= settings_.mostSteps || isFlat(patch, from, to)) return;
+    if (isFlat(patch, from, to)) return;
+    if (depth >= settings_.mostSteps) {
+      ++counts_.cutShort;
+      return;
+    }
     const dvec2 middle = 0.5 * (from + to);
     sample(patch, from, middle, depth + 1, out);
     out.push_back(middle);
@@ -118,9 +122,7 @@ class PathRefinement {
       if (cell.samples[s].size() > cell.samples[side].size()) side = s;
     const Samples& most = cell.samples[side];
     counts_.steps = std::max(counts_.steps, cell.steps);
-    const bool enough = cell.steps >= 2 * settings_.mostSteps;
-    counts_.cutShort += enough && !most.empty();
-    if (most.empty() || enough) {
+    if (most.empty()) {
       const auto vertex = [&](size_t c) { return vertices_.add(cell.patch, cell.corners[c]); };
       vertices_.addTriangle(cell.patch, {vertex(0), vertex(1), vertex(2)});
       return;
@@ -128,7 +130,8 @@ class PathRefinement {
     const size_t next = (side + 1) % 3, last = (side + 2) % 3, at = most.size() / 2;
     const dvec2 middle = most[at], opposite = cell.corners[last];
     const auto cut = static_cast<ptrdiff_t>(at);
-    // Two splits of cells take the place of one of curves.
+    // Two splits of cells take the place of one of curves: at last new curves get no samples, and those that
+    // are left are used up.
     const Samples across = samples(cell.patch, middle, opposite, (cell.steps + 1) / 2);
     Cell first{cell.patch,
                cell.steps + 1,
