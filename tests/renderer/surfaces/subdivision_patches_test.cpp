@@ -8,6 +8,7 @@
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/c_patches.h"
 #include "renderer/surfaces/catmull_clark.h"
 #include "renderer/surfaces/catmull_clark_point.h"
 #include "renderer/surfaces/neighbours.h"
@@ -172,6 +173,67 @@ TEST(AccPatches, TangentPatchesAgreeAcrossEdges) {
     EXPECT_LT(fieldError / points, 1.0) << steps;
     EXPECT_LT(geometryError / points, 1.0) << steps;
   }
+}
+
+/// SC-24: tangent planes agree along all sides, within quads and between them, whatever the valences; corners
+/// have the surface's points and normals.
+TEST(CPatches, AreSmooth) {
+  double deviation[2] = {};
+  for (const int steps : {0, 1}) {
+    const PolygonMesh mesh = catmullClark(scene::doubleTorusCage(), steps);
+    PatchSet set = cPatches(mesh);
+    ASSERT_EQ(set.patches.size(), 4 * mesh.faces.size());
+    const SideCounts counts = findNeighbours(set);
+    EXPECT_EQ(counts.open + counts.crowded + counts.collapsed, 0U);
+    const LimitPoints limit = catmullClarkLimit(mesh);
+    double angle = 0.0;
+    for (size_t p = 0; p < set.patches.size(); ++p) {
+      for (int side = 0; side < 3; ++side) {
+        const Neighbour& beyond = set.neighbours[p][size_t(side)];
+        ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+        for (int q = 0; q <= 10; ++q)
+          angle = std::max(
+              angle,
+              angleDeg(
+                  geometricNormal(set, set.patches[p], sidePoint(Domain::Triangle, side, q, 10)).direction,
+                  geometricNormal(set, set.patches[size_t(beyond.patch)],
+                                  sidePoint(Domain::Triangle, beyond.side, 10 - q, 10))
+                      .direction));
+      }
+      const size_t face = p / 4, corner = p % 4;
+      const DomainPoint at = trianglePoint(1.0, 0.0);
+      EXPECT_LT(glm::length(evaluate(set, set.patches[p], at).p - limit.points[mesh.faces[face][corner]]),
+                1e-13);
+      EXPECT_LT(angleDeg(geometricNormal(set, set.patches[p], at).direction, limit.normals[face][corner]),
+                1e-6);
+      // In the first triangle (u, v, w) lies at v (1, 0) + w (1/2, 1/2).
+      if (corner > 0) continue;
+      for (const double v : {0.1, 0.4, 0.7})
+        for (const double w : {0.1, 0.25})
+          deviation[steps] =
+              std::max(deviation[steps],
+                       glm::length(evaluate(set, set.patches[p], trianglePoint(1 - v - w, v)).p -
+                                   catmullClarkPoint(mesh, uint32_t(face), v + 0.5 * w, 0.5 * w).position));
+    }
+    EXPECT_LT(angle, 1e-5) << steps;
+  }
+  // Of a surface about 6 wide.
+  EXPECT_LT(deviation[0], 0.1);
+  EXPECT_LT(deviation[1], 0.5 * deviation[0]);
+}
+
+/// A flat sheet of even squares stays as it is, parameters too.
+TEST(CPatches, OfAFlatSheetAreFlat) {
+  PolygonMesh mesh = sheet(0.0);
+  for (glm::dvec3& p : mesh.points) p.z = 0.5 * p.x - p.y;
+  const PatchSet set = cPatches(mesh);
+  // Face 12 lies in the middle: x and y from 2 to 3.
+  for (const double v : {0.0, 0.3, 0.6})
+    for (const double w : {0.0, 0.2, 0.4}) {
+      const glm::dvec3 p = evaluate(set, set.patches[48], trianglePoint(1 - v - w, v)).p;
+      const double x = 2.0 + v + 0.5 * w, y = 2.0 + 0.5 * w;
+      EXPECT_LT(glm::length(p - glm::dvec3(x, y, 0.5 * x - y)), 1e-13);
+    }
 }
 
 /// Boundaries are the cubic B-splines of the sheet.
