@@ -6,6 +6,9 @@
 // The includer defines, before it includes this file, the control points of the patch in the order of
 // patch_set.h, homogeneous (w x, w y, w z, w), relative to an anchor near the geometry:
 //   vec4 bezierPoint(int index);
+// NVIDIA's compiler regroups products of values that a function returns although they are `precise` there, so that Bernstein
+// polynomials no longer mirror each other; it does not with this. Other compilers ignore it.
+#pragma optionNV(fastmath off)
 #include "renderer/surfaces/bezier_tables.h"
 
 const float kBezierBinomials[55] = float[55](LIMEN_BINOMIALS);
@@ -58,42 +61,48 @@ void differences(int n, inout vec4 points[10]) {
 
 // Derivatives up to `order`, 0 to 2.
 BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
-  float basisU[3][10], basisV[3][10];
-  for (int k = 0; k <= order; ++k) {
-    bernsteinBasis(max(degreeU - k, 0), at.x, at.z, basisU[k]);
-    bernsteinBasis(max(degreeV - k, 0), at.y, at.w, basisV[k]);
+  // Of the degrees less 0, 1 and 2. Arrays of their own: NVIDIA's compiler refuses an array's element at a variable place as
+  // an out argument.
+  float basisU0[10], basisU1[10], basisU2[10], basisV0[10], basisV1[10], basisV2[10];
+  bernsteinBasis(degreeU, at.x, at.z, basisU0);
+  bernsteinBasis(degreeV, at.y, at.w, basisV0);
+  if (order > 0) {
+    bernsteinBasis(degreeU - 1, at.x, at.z, basisU1);
+    bernsteinBasis(degreeV - 1, at.y, at.w, basisV1);
+  }
+  if (order > 1) {
+    bernsteinBasis(max(degreeU - 2, 0), at.x, at.z, basisU2);
+    bernsteinBasis(max(degreeV - 2, 0), at.y, at.w, basisV2);
   }
   const float m = float(degreeU), n = float(degreeV);
   vec4 row[10], p[10], u[10], uu[10];
   for (int j = 0; j <= degreeV; ++j) {
     for (int i = 0; i <= degreeU; ++i) row[i] = bezierPoint(i + (degreeU + 1) * j);
-    p[j] = bezierSum(degreeU, basisU[0], row);
+    p[j] = bezierSum(degreeU, basisU0, row);
     if (order == 0) continue;
     differences(degreeU, row);
-    u[j] = m * bezierSum(degreeU - 1, basisU[1], row);
+    u[j] = m * bezierSum(degreeU - 1, basisU1, row);
     uu[j] = vec4(0.0);
     if (order == 1 || degreeU == 1) continue;
     differences(degreeU - 1, row);
-    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU[2], row);
+    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU2, row);
   }
-  BezierJet jet = BezierJet(bezierSum(degreeV, basisV[0], p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  BezierJet jet = BezierJet(bezierSum(degreeV, basisV0, p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (order == 0) return jet;
-  jet.u = bezierSum(degreeV, basisV[0], u);
+  jet.u = bezierSum(degreeV, basisV0, u);
   differences(degreeV, p);
-  jet.v = n * bezierSum(degreeV - 1, basisV[1], p);
+  jet.v = n * bezierSum(degreeV - 1, basisV1, p);
   if (order == 1) return jet;
-  jet.uu = bezierSum(degreeV, basisV[0], uu);
+  jet.uu = bezierSum(degreeV, basisV0, uu);
   differences(degreeV, u);
-  jet.uv = n * bezierSum(degreeV - 1, basisV[1], u);
+  jet.uv = n * bezierSum(degreeV - 1, basisV1, u);
   if (degreeV == 1) return jet;
   differences(degreeV - 1, p);
-  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV[2], p);
+  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV2, p);
   return jet;
 }
 
-// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). Whoever calls this must keep the result in a
-// variable that is `precise` too: NVIDIA's compiler regroups the products otherwise, where the result is passed to a function
-// that it does not inline, and the polynomials no longer mirror each other.
+// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis().
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
   precise float tss = t * ss, tts = tt * s;

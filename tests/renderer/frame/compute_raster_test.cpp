@@ -74,8 +74,8 @@ TEST_F(ComputeRasterTest, PackedSearchSeesWhatTwoPassesSee) {
     const scene::Scene scene = scene::buildScene(name, {});
     const GpuScene gpuScene(scene);
     Frame frame(context(), scene, gpuScene, {121, 83});
-    const ComputeRaster two(context(), frame.sizePx(), true, false, TriangleSearch::TwoPasses),
-        packed(context(), frame.sizePx(), true, false, TriangleSearch::Packed);
+    const ComputeRaster two(context(), frame.sizePx(), {.ids = true, .search = TriangleSearch::TwoPasses}),
+        packed(context(), frame.sizePx(), {.ids = true, .search = TriangleSearch::Packed});
     for (int again = 0; again < 2; ++again)  // buffers are left as the next frame needs them
       for (const ComputeRaster* raster : {&two, &packed})
         raster->draw(gpuScene, anchorToClip(frame), nearPlane(frame));

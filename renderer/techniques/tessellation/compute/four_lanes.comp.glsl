@@ -3,8 +3,7 @@
 // evaluates its component of four samples; then each of them finishes one sample (there, three finish every sample
 // together). Bicubic patches; others get whole vertices from each invocation. RESTART: as in vertices.comp.glsl.
 #include "renderer/techniques/tessellation/compute/pattern_vertices.glsl"
-
-layout(std430, binding = kVerticesBuffer) writeonly buffer Vertices { TessellatedVertex vertices[]; };
+#include "renderer/techniques/tessellation/store_vertex.glsl"
 
 const int kPatchesPerGroup = kTessellationGroup / 4;
 shared float jets[kPatchesPerGroup * 4 * 12];  // of each patch and sample: p, u, v
@@ -100,9 +99,9 @@ void main() {
         jet.p = vec4(jets[from], jets[from + 1], jets[from + 2], jets[from + 3]);
         jet.u = vec4(jets[from + 4], jets[from + 5], jets[from + 6], jets[from + 7]);
         jet.v = vec4(jets[from + 8], jets[from + 9], jets[from + 10], jets[from + 11]);
-        vertices[first + uint(mine)] = vertexOf(patch_, domainPoint(shape, patternSample(plan, mine)), jet);
+        storeVertex(first + uint(mine), vertexOf(patch_, domainPoint(shape, patternSample(plan, mine)), jet));
       } else {
-        vertices[first + uint(mine)] = patternVertex(patch_, number, plan, mine);
+        storeVertex(first + uint(mine), patternVertex(patch_, number, plan, mine));
       }
     }
     barrier();
