@@ -51,7 +51,7 @@ const int kHeight[8] = int[8](LIMEN_MOST_SAMPLE_ROWS);
 const int kStart[9] = int[9](0, 720, 960, 1056, 1104, 1134, 1159, 1184, 1209);
 const int kFirstRow[9] = int[9](0, 20, 32, 40, 46, 51, 56, 61, 66);
 shared float samples[kStart[kPlanes]];
-shared vec4 rowTaps[kPlanes * kTile.y];
+shared ivec4 rowTaps[kPlanes * kTile.y];  // where the first sample is in `rows`, and both weights' bits
 shared float rows[kFirstRow[kPlanes] * kTile.x];  // at the tile's columns
 
 ivec2 originOf(int i) {
@@ -137,7 +137,9 @@ void loadTile(int thread, int x, int mapColumns) {
   for (int i = thread; i < kPlanes * kTile.y; i += THREADS) {
     int plane = i / kTile.y, mapRows = imageSize(threshold).y;
     int y = min(tileNumber().y * kTile.y + i % kTile.y, mapRows - 1);
-    rowTaps[i] = taps[kPlanes * mapColumns + plane * mapRows + y];
+    vec4 tap = taps[kPlanes * mapColumns + plane * mapRows + y];
+    int row = kFirstRow[plane] + int(tap.x) - originOf(plane + 1).y;
+    rowTaps[i] = ivec4(row * kTile.x, floatBitsToInt(tap.yz), 0);
   }
   barrier();
   for (int plane = 0; plane < kPlanes; ++plane) {
@@ -166,15 +168,13 @@ void main() {
     adaptation[i] = contrastsOf(finestValues[i], float[1](0.0), contrasts[i]);
 #else
   loadTile(thread, x, size.x);
-  int rowOrigin[kPlanes];
-  for (int plane = 0; plane < kPlanes; ++plane)
-    rowOrigin[plane] = (kFirstRow[plane] - originOf(plane + 1).y) * kTile.x + thread % kTile.x;
+  int column = thread % kTile.x, row = thread / kTile.x * kRun;
   for (int i = 0; i < kRun; ++i) {
     float gathered[kPlanes];
     for (int plane = 0; plane < kPlanes; ++plane) {
-      vec4 tap = rowTaps[plane * kTile.y + first.y - tile.y + i];
-      int q = rowOrigin[plane] + int(tap.x) * kTile.x;
-      gathered[plane] = weigh(rows[q], rows[q + kTile.x], rows[q + 2 * kTile.x], tap);
+      ivec4 tap = rowTaps[plane * kTile.y + row + i];
+      int q = tap.x + column;
+      gathered[plane] = weigh(rows[q], rows[q + kTile.x], rows[q + 2 * kTile.x], intBitsToFloat(tap));
     }
     adaptation[i] = contrastsOf(finestValues[i], gathered, contrasts[i]);
   }
@@ -182,7 +182,7 @@ void main() {
   for (int i = 0; i < kRun; ++i) {
     ivec2 at = first + ivec2(0, i);
     vec2 evaluated = evaluate(contrasts[i], adaptation[i]);
-    if (any(greaterThanEqual(at, size))) continue;
+    // Beyond the map nothing is stored.
     imageStore(threshold, at, vec4(run.rule.z * evaluated.y * evaluated.x));
 #if STAGES
     imageStore(stages, at, vec4(adaptation[i], evaluated.x, 0.0, 0.0));

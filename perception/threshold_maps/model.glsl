@@ -18,7 +18,8 @@ float elevationOf(float c) {
   const uint kFirst = (127u - 20u) << 5, kLast = (64u << 5) - 1u;
   uint bits = floatBitsToUint(max(c, 9.5367431640625e-7));
   vec2 segment = elevations[min((bits >> 18) - kFirst, kLast)];
-  return segment.x + segment.y * (float(bits & 0x3ffffu) * (1.0 / 262144.0));
+  // The place in the segment, as the mantissa of a number from 1 to 2: quicker than a conversion, and the same.
+  return segment.x + segment.y * (uintBitsToFloat(0x3f800000u | (bits & 0x3ffffu) << 5) - 1.0);
 }
 #elif MASKING == 1  // (1 + x^b)^(1/b), x = factor c^s: masking holds lg2 of factor, s, b
 float elevationOf(float c) {

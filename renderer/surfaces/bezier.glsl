@@ -6,6 +6,9 @@
 // The includer defines, before it includes this file, the control points of the patch in the order of
 // patch_set.h, homogeneous (w x, w y, w z, w), relative to an anchor near the geometry:
 //   vec4 bezierPoint(int index);
+// NVIDIA's compiler regroups products of values that a function returns although they are `precise` there, so that Bernstein
+// polynomials no longer mirror each other; it does not with this. Other compilers ignore it.
+#pragma optionNV(fastmath off)
 #include "renderer/surfaces/bezier_tables.h"
 
 const float kBezierBinomials[55] = float[55](LIMEN_BINOMIALS);
@@ -99,9 +102,7 @@ BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
   return jet;
 }
 
-// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis(). Whoever calls this must keep the result in a
-// variable that is `precise` too: NVIDIA's compiler regroups the products otherwise, where the result is passed to a function
-// that it does not inline, and the polynomials no longer mirror each other.
+// The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis().
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
   precise float tss = t * ss, tts = tt * s;

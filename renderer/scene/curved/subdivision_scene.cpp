@@ -5,7 +5,7 @@
 #include "renderer/scene/stage.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/catmull_clark.h"
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/patch_builder.h"
 #include "renderer/surfaces/qas_patches.h"
 

@@ -33,7 +33,7 @@ namespace {
 /// Who makes vertices and indices.
 struct PatchParallel {
   static constexpr const char *kKind = "patch_parallel", *kSummary = "some invocations for each patch";
-  int lanes = 0, verticesEach = 8;
+  int lanes = 0, verticesEach = 16;
   static const SettingsTable<PatchParallel>& table() {
     static const SettingsTable<PatchParallel> kTable = {
         {&PatchParallel::lanes, "lanes", oneOf({0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}), "invocations",

@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phase 5: indices of triangle strips, or of single triangles (LISTS: a slot is then a triangle). Some invocations for each
-// patch, or one for each slot (VERTEX_PARALLEL). Lists are written four words at a time: a triangle's three, stored one by
-// one, would touch each piece of memory three times. See compute.cpp.
+// patch, or one for each slot (VERTEX_PARALLEL). See compute.cpp.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
 layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
 
 #ifdef LISTS
-layout(std430, binding = kIndicesBuffer) writeonly buffer IndexWords { uvec4 indexWords[]; };
 const uint kIndicesPerSlot = 3u;
-
-// The words [4 place, 4 place + 4) as far as they are the patch's, [begin, end). They lie in two triangles.
-void writeWords(PatternPlan plan, uint firstVertex, uint place, uint begin, uint end) {
-  const uint word = 4u * place, from = max(word, begin) - begin, triangle = from / 3u, corner = from - 3u * triangle;
-  const uvec3 a = uvec3(patternTriangle(plan, int(triangle))) + firstVertex,
-              b = uvec3(patternTriangle(plan, int(min(triangle + 1u, (end - begin) / 3u - 1u)))) + firstVertex;
-  if (word >= begin && word + 4u <= end) {
-    indexWords[place] = corner == 0u ? uvec4(a, b.x) : (corner == 1u ? uvec4(a.yz, b.xy) : uvec4(a.z, b));
-    return;
-  }
-  // The other words are a neighbouring patch's, which may be written at the same time.
-  const uint last = min(word + 4u, end);
-  for (uint at = begin + from, k = corner; at < last; ++at, ++k) {
-    const uvec3 t = k < 3u ? a : b;
-    const uint c = k < 3u ? k : k - 3u;
-    indices[at] = c == 0u ? t.x : (c == 1u ? t.y : t.z);
-  }
-}
+#ifdef VERTEX_PARALLEL
+layout(std430, binding = kIndicesBuffer) writeonly buffer IndexWords { uvec4 indexWords[]; };
+#endif
 #else
 const uint kIndicesPerSlot = 1u;
 #endif
@@ -74,9 +57,14 @@ void main() {
   if (count == 0u) return;
   const PatternPlan plan = planOf(at.number, shapeOf(patches[at.number]));
 #ifdef LISTS
-  const uint begin = 3u * first.y, end = begin + 3u * count;
-  for (uint place = begin / 4u + at.lane; 4u * place < end; place += at.lanes)
-    writeWords(plan, first.x, place, begin, end);
+  // Three stores: a triangle's corners cost more than what they waste.
+  for (uint slot = at.lane; slot < count; slot += at.lanes) {
+    const uvec3 corners = uvec3(patternTriangle(plan, int(slot))) + first.x;
+    const uint place = 3u * (first.y + slot);
+    indices[place] = corners.x;
+    indices[place + 1u] = corners.y;
+    indices[place + 2u] = corners.z;
+  }
 #else
   for (uint slot = at.lane; slot < count; slot += at.lanes)
     indices[first.y + slot] = stripIndex(plan, slot, first.x);

@@ -58,10 +58,8 @@ void main() {
   const uvec2 vertexGroups = groupsFor(used.x), indexGroups = groupsFor(used.y);
 #else
   const float seen = max(float(low) * float(max(samples, 1u)) / float(kTessellationGroup), 1.0);
-  // Of lists, four words are written at once.
-  const uint indexItems = indicesPerSlot == 3u ? used.y / 4u * 3u : used.y;
   const uint laneBits = lanes > 0u ? uint(findMSB(lanes)) : lanesFor(used.x, seen),
-             indexLaneBits = indexLanes > 0u ? uint(findMSB(indexLanes)) : lanesFor(indexItems, seen);
+             indexLaneBits = indexLanes > 0u ? uint(findMSB(indexLanes)) : lanesFor(used.y, seen);
   const uvec2 vertexGroups = groupsFor(low << laneBits), indexGroups = groupsFor(low << indexLaneBits);
 #endif
   totals.groupsX = vertexGroups.x;
