@@ -22,6 +22,11 @@ const SettingsTable<ByDeviation>& ByDeviation::table() {
        "Schwarz 2009, section 7.4.2"},
       {&S::triangleRule, "triangle_rule", "Which bound gives the factors of cubic triangles",
        "Schwarz 2009, sections 7.4.3 and 7.4.4"},
+      {&S::space, "space",
+       "Where the deviation is bounded: in eye coordinates with each patch's own tolerance, in the scene's "
+       "with that "
+       "of its middle, or on the screen (rectangles)",
+       "Abi-Ezzi and Shirman 1991; Schwarz 2009, section 7.4.2"},
       {&S::strict, "strict",
        "Allow for displacements away from the middle of the picture, which look larger than their size"},
       {&S::most, "most", {1, 64}, "segments", "Most segments of a side"}};
@@ -60,6 +65,7 @@ gl::ShaderDefines factorDefines(gl::ShaderDefines defines, const FactorSettings&
         surfaces::constantOf(deviation->triangleRule == TriangleRule::PnEstimate ? surfaces::PnBound::Boundary
                              : deviation->triangleRule == TriangleRule::PnTied   ? surfaces::PnBound::Tied
                                                                                  : surfaces::PnBound::Safe));
+  if (deviation && deviation->space == FactorSpace::Screen) defines["SCREEN"] = "1";
   return defines;
 }
 
@@ -89,11 +95,23 @@ FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const F
       factors_(int64_t{patches.count()} * int64_t{sizeof(PatchFactors)}, nullptr),
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
       bounds_((settings.precompute ? int64_t{patches.count()} : 1) * int64_t{sizeof(PatchBounds)}, nullptr) {
+  requireBounds(frame.scene());
   if (!settings.precompute) return;
   patches_.bindStorage();
   bounds_.bindStorage(kPatchBoundsBuffer);
   dispatch(frame.context().programs().compute(
       kFactors, with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS")));
+}
+
+void FactorPass::requireBounds(const scene::Scene& scene) const {
+  const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
+  if (!deviation || deviation->space != FactorSpace::Screen) return;
+  if (settings_.precompute)
+    throw Error("bounds on the screen depend on the view", "precompute",
+                "leave it off, or use another factors.space");
+  for (const surfaces::Patch& patch : scene.surfaces.patches)
+    if (patch.domain == surfaces::Domain::Triangle)
+      throw Error("no bound is known of projected triangles", "factors.space", "use lighting or object");
 }
 
 void FactorPass::dispatch(const gl::Program& program) const {
@@ -114,6 +132,12 @@ void FactorPass::runFactors(frame::Frame& frame, const gl::Program& program) con
   if (deviation)
     program.set("tolerance", static_cast<float>(surfaces::objectTolerance(
                                  deviation->tolerancePx, 1.0, frame.tanHalfFov(), frame.sizePx().y)));
+  const glm::dmat4 toCamera = frame.anchorToCamera();
+  program.set("commonDepth", deviation && deviation->space == FactorSpace::Object
+                                 ? static_cast<float>(-toCamera[3].z)
+                                 : 0.0F);
+  program.set("pxAtDistance", static_cast<float>(frame.sizePx().y / (2.0 * frame.tanHalfFov())));
+  program.set("tolerancePx", deviation ? static_cast<float>(deviation->tolerancePx) : 0.0F);
   program.set("mostSegments", deviation ? deviation->most : kMostSegments);
   program.set("uniformSegments", uniform ? uniform->segments : 0);
   program.set("cull", settings_.cull ? 1 : 0);

@@ -121,43 +121,47 @@ TEST_F(Tessellation, TheSurfaceReadBackIsExactAndTheSameTwice) {
 // The shader's factors in float are those of factors.h in double, but for patches whose number of segments
 // lies within rounding of a whole one.
 TEST_F(Tessellation, FactorsAreThoseOfTheBoundsInDoublePrecision) {
-  const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
-  const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, {320, 240});
-  const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
-  const auto technique = info.make(ParameterValues(info.parameters, {}));
-  technique->prepare(frame);
-  frame.begin();
-  technique->render(frame);
-  frame.end();
-  const auto surface = technique->tessellation(frame);
-  const surfaces::PatchSet& set = scene.surfaces;
-  std::vector<glm::dvec2> segments;
-  for (const surfaces::Patch& patch : set.patches) {
-    double depth = 1e300;
-    for (uint32_t i = 0; i < 16; ++i)
-      depth = std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - surface->view.eye,
-                                       surface->view.forward));
-    const double eps = surfaces::objectTolerance(0.5, depth, frame.tanHalfFov(), 240);
-    segments.push_back(surfaces::segmentsOf(surfaces::derivativeBounds(set, patch, eps), eps,
-                                            surfaces::FactorRule::AbiEzziShirman));
-  }
-  int compared = 0;
-  for (size_t i = 0; i < set.patches.size(); ++i) {
-    if (surface->factors[i][0] == 0) continue;
-    for (size_t side = 0; side < 4; ++side) {
-      const surfaces::Neighbour& beyond = set.neighbours[i][side];
-      double own = side % 2 == 0 ? segments[i].x : segments[i].y;
-      if (beyond.patch >= 0 && surface->factors[size_t(beyond.patch)][0] > 0)
-        own = std::max(
-            own, beyond.side % 2 == 0 ? segments[size_t(beyond.patch)].x : segments[size_t(beyond.patch)].y);
-      if (std::abs(own - std::round(own)) < 1e-4) continue;
-      EXPECT_EQ(surface->factors[i][side], surfaces::wholeFactor(own, 64))
-          << "patch " << i << " side " << side;
-      ++compared;
+  for (const std::string space : {"lighting", "object"}) {
+    const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {320, 240});
+    const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+    const auto technique = info.make(
+        ParameterValues(info.parameters, {{"factors", std::string("deviation")}, {"factors.space", space}}));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    const auto surface = technique->tessellation(frame);
+    const surfaces::PatchSet& set = scene.surfaces;
+    std::vector<glm::dvec2> segments;
+    for (const surfaces::Patch& patch : set.patches) {
+      double depth = 1e300;
+      for (uint32_t i = 0; i < 16; ++i)
+        depth = std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - surface->view.eye,
+                                         surface->view.forward));
+      if (space == "object") depth = glm::dot(gpuScene.anchor() - surface->view.eye, surface->view.forward);
+      const double eps = surfaces::objectTolerance(0.5, depth, frame.tanHalfFov(), 240);
+      segments.push_back(surfaces::segmentsOf(surfaces::derivativeBounds(set, patch, eps), eps,
+                                              surfaces::FactorRule::AbiEzziShirman));
     }
+    int compared = 0;
+    for (size_t i = 0; i < set.patches.size(); ++i) {
+      if (surface->factors[i][0] == 0) continue;
+      for (size_t side = 0; side < 4; ++side) {
+        const surfaces::Neighbour& beyond = set.neighbours[i][side];
+        double own = side % 2 == 0 ? segments[i].x : segments[i].y;
+        if (beyond.patch >= 0 && surface->factors[size_t(beyond.patch)][0] > 0)
+          own = std::max(own, beyond.side % 2 == 0 ? segments[size_t(beyond.patch)].x
+                                                   : segments[size_t(beyond.patch)].y);
+        if (std::abs(own - std::round(own)) < 1e-4) continue;
+        EXPECT_EQ(surface->factors[i][side], surfaces::wholeFactor(own, 64))
+            << space << " patch " << i << " side " << side;
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 500) << space;
   }
-  EXPECT_GT(compared, 500);
 }
 
 // Those whose factor, in double precision and without a limit, is above the limit.
@@ -566,6 +570,56 @@ TEST_F(TessellatedSurfaces, SpacingsWithoutLongerSegmentsKeepTheTolerance) {
     const auto surface = made(scene, text({{"spacing", spacing}}));
     EXPECT_LT(surfaces::deviationOf(scene.surfaces, *surface).atParametersPx.most, 0.5) << spacing;
   }
+}
+
+/// On the screen: triangles of projected vertices against the projected surface at equal parameters, in
+/// double precision. Patches seen edge-on need fewer segments there than in eye coordinates.
+TEST_F(TessellatedSurfaces, BoundsOnTheScreenHoldThere) {
+  for (const char* name : {"curved/sheet", "curved/teapot"}) {
+    const scene::Scene scene = makeScene(name);
+    Given given = text({{"factors", "deviation"}, {"factors.space", "screen"}});
+    const auto surface = made(scene, given);
+    ASSERT_GT(surface->triangles.size(), 1000U);
+    const surfaces::SurfaceView& view = surface->view;
+    const auto seen = [&](const glm::dvec3& p) {
+      const glm::dvec3 d = p - view.eye;
+      const double depth = glm::dot(d, view.forward);
+      return glm::dvec3(glm::dot(d, view.right) / depth, glm::dot(d, view.up) / depth, depth);
+    };
+    double most = 0.0;
+    int samples = 0;
+    for (const glm::uvec3& t : surface->triangles) {
+      if (surface->patches[t.x] != surface->patches[t.y] || surface->patches[t.x] != surface->patches[t.z])
+        continue;
+      const surfaces::Patch& patch = scene.surfaces.patches[surface->patches[t.x]];
+      std::array<glm::dvec3, 3> corners;
+      bool behind = false;
+      for (int k = 0; k < 3; ++k) {
+        corners[size_t(k)] = seen(surface->anchor + glm::dvec3(surface->positions[t[k]]));
+        behind = behind || corners[size_t(k)].z < view.nearest;
+      }
+      if (behind) continue;
+      for (const glm::dvec3 w : {glm::dvec3(1, 1, 1) / 3.0, glm::dvec3(0.5, 0.5, 0), glm::dvec3(0, 0.5, 0.5),
+                                 glm::dvec3(0.5, 0, 0.5)}) {
+        const auto &a = surface->parameters[t.x], &b = surface->parameters[t.y],
+                   &c = surface->parameters[t.z];
+        const auto at =
+            surfaces::rectanglePoint(w.x * a.u + w.y * b.u + w.z * c.u, w.x * a.v + w.y * b.v + w.z * c.v);
+        const glm::dvec3 exact =
+            seen(surfaces::evaluate(scene.surfaces, patch, at, surfaces::Order::Position).p);
+        const glm::dvec3 flat = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
+        most = std::max(most, glm::length(glm::dvec2(exact - flat)) * view.pxAtDistance);
+        ++samples;
+      }
+    }
+    EXPECT_GT(samples, 4000) << name;
+    EXPECT_LT(most, 0.5 + 1e-3) << name;
+    EXPECT_GT(most, 0.05) << name;
+    EXPECT_LT(surface->triangles.size(), made(scene, {})->triangles.size()) << name;
+  }
+  EXPECT_THROW(
+      made(makeScene("curved/double_torus"), text({{"factors", "deviation"}, {"factors.space", "screen"}})),
+      Error);
 }
 
 TEST_F(TessellatedSurfaces, BoundsMadeOnceKeepTheToleranceToo) {
