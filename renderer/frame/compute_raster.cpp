@@ -11,6 +11,10 @@ namespace {
 /// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
+constexpr int kLargeGroups = 4096;
+/// That take one listed triangle after another: twice what an NVIDIA H200 runs at once. An indirect dispatch
+/// would make its driver wait for the number.
+constexpr int64_t kListedInvocations = 2 * 132 * 2048;
 /// Invocations that share a triangle whose bounding box has at most `pixels`; larger ones are queued, and
 /// cost a group each at least.
 struct Sharing {
@@ -68,9 +72,10 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const Comp
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
                                          finishDefines(settings.ids, packed_))),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
-      queue_(kQueueCapacity),
+      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
       depthBits_(int64_t{packed_ ? 8 : 4} * sizePx.x * sizePx.y, nullptr) {
   // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
+  queue_.clearUint(0);
   depthBits_.clearUint(0);
   if (settings.textures) depth_.emplace(gl::Format::R32F, sizePx);
   if (!settings.ids) return;
@@ -123,8 +128,8 @@ void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) 
   }
   const auto pass = [&](const Programs& programs, const gl::Program& large) {
     small(programs);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    queue_.dispatch(large);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    large.dispatch({kLargeGroups, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
   pass(smallDepth_, largeDepth_);
@@ -164,12 +169,10 @@ void ComputeRaster::drawListed(const ListedTriangles& triangles, const glm::mat4
   triangles.vertices.bindStorage(kScenePositionsBuffer);
   triangles.indices.bindStorage(kSceneIndicesBuffer);
   triangles.count.bindStorage(kRasterCountBuffer);
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, triangles.count.id());
   run(clip, near, [&](const Programs& programs) {
-    programs[1]->use();
-    glDispatchComputeIndirect(0);
+    programs[1]->dispatch({static_cast<int>(std::min(triangles.most, kListedInvocations)), 1},
+                          {kRasterGroup, 1});
   });
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 }  // namespace limen::frame

@@ -6,7 +6,6 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/frame/gpu_scene.h"
-#include "renderer/frame/raster_queue.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
@@ -39,6 +38,7 @@ struct DepthPeel {
 struct ListedTriangles {
   const gl::Buffer &vertices, &indices;
   const gl::Buffer& count;  ///< RasterCount (frame_bindings.h)
+  int64_t most;             ///< for which there is room
 };
 
 /// How ComputeRaster finds the triangle that each pixel sees.
@@ -76,7 +76,7 @@ class ComputeRaster {
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
   void draw(const Geometry& geometry, const glm::mat4& clip, double near, const DepthPeel& peel = {}) const;
-  /// An indirect dispatch: the host need not know how many there are. One invocation a triangle.
+  /// The host need not know how many there are. One invocation a triangle.
   void drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const;
 
   const gl::Texture& depth() const { return *depth_; }  ///< R32F
@@ -109,8 +109,7 @@ class ComputeRaster {
   const gl::Program &largeDepth_, &finish_, &requeue_;
   const gl::Program* largeIds_ = nullptr;
   std::optional<gl::Texture> depth_, ids_;
-  RasterQueue queue_;
-  gl::Buffer depthBits_;  ///< packed: 64 bits a pixel
+  gl::Buffer queue_, depthBits_;  ///< packed: 64 bits a pixel
   std::optional<gl::Buffer> idBits_;
 };
 

@@ -46,20 +46,19 @@ const uint kSurfacePatchesBuffer = 7u;
 
 // ComputeRaster.
 struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the band in its bounding box
-  uint queued;              // bands; an indirect dispatch of a group each
-  uint groupsY, groupsZ;    // 1
-  uint unused;
+  uint queued;
+  uint padding[3];
 };
 #ifdef __cplusplus
 static_assert(sizeof(RasterQueueHeader) == 16);
 #endif
-// Triangles that the GPU has listed itself, and an indirect dispatch over them.
+// Triangles that the GPU has listed itself.
 struct RasterCount {  // std430
-  uint groupsX, groupsY, groupsZ;
   uint triangles;
+  uint unused0, unused1, unused2;
 };
 #ifdef __cplusplus
-static_assert(sizeof(RasterCount) == 16 && offsetof(RasterCount, triangles) == 12);
+static_assert(sizeof(RasterCount) == 16);
 #endif
 const int kRasterGroup = 64;
 const uint kRasterCountBuffer = 7u;

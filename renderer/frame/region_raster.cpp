@@ -8,12 +8,12 @@
 
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/frame/raster_queue.h"
 
 namespace limen::frame {
 namespace {
 
 constexpr int kRegionBands = 1 << 19;  // as ComputeRaster's
+constexpr int kBandGroups = 4096;
 
 const gl::Program& rasterProgram(gl::Context& context, bool large, bool ids, int words) {
   gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kRegionBands) + "u"},
@@ -28,7 +28,7 @@ const gl::Program& rasterProgram(gl::Context& context, bool large, bool ids, int
 struct RegionRaster::Compute {
   const gl::Program &smallDepth, &largeDepth, &requeue;
   const gl::Program *smallIds = nullptr, *largeIds = nullptr;
-  RasterQueue queue;
+  gl::Buffer queue;
 };
 
 struct RegionRaster::Hardware {
@@ -54,10 +54,11 @@ RegionRaster::RegionRaster(Frame& parent, const std::string& name, const LightFr
     hardware_->drawings.resize(kMostRasterRegions);
     return;
   }
-  compute_.reset(new Compute{rasterProgram(context, false, false, words),
-                             rasterProgram(context, true, false, words),
-                             context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl"),
-                             nullptr, nullptr, RasterQueue(kRegionBands)});
+  compute_.reset(new Compute{
+      rasterProgram(context, false, false, words), rasterProgram(context, true, false, words),
+      context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl"), nullptr, nullptr,
+      gl::Buffer(int64_t{sizeof(RasterQueueHeader)} + int64_t{kRegionBands} * 8, nullptr)});
+  compute_->queue.clearUint(0);
   if (light) return;
   compute_->smallIds = &rasterProgram(context, false, true, words);
   compute_->largeIds = &rasterProgram(context, true, true, words);
@@ -115,8 +116,8 @@ void RegionRaster::drawByCompute(Frame& view, const Ranges& ranges, const gl::Bu
       each->set("rangeCount", static_cast<int>(ranges.count));
     }
     small.dispatch({std::min(count, kPerRow), (count + kPerRow - 1) / kPerRow}, {kRasterGroup, 1});
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    compute_->queue.dispatch(large);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    large.dispatch({kBandGroups, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compute_->requeue.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -14,6 +14,7 @@ namespace {
 
 /// As for ComputeRaster: row bands of large triangles.
 constexpr int kSampleQueueCapacity = 1 << 19;
+constexpr int kSampleLargeGroups = 4096;
 /// Invocations that share a triangle of few pixels, and how many these are in its bounding box: each pixel
 /// waits for what is known of it.
 constexpr int kSmallLanes = 4, kSmallPixels = 32;
@@ -85,12 +86,13 @@ SampleRaster::SampleRaster(Frame& frame, std::vector<glm::vec2> places, SampleSe
       finish_(sampleProgram(frame, "sample_finish.comp.glsl", places_.size())),
       reach_(gl::Format::R32F, frame.sizePx()),
       marks_(gl::Format::R32UI, frame.sizePx()),
-      queue_(kSampleQueueCapacity),
+      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kSampleQueueCapacity} * 8, nullptr),
       list_(int64_t{sizeof(SampleListHeader)} + int64_t{4} * frame.sizePx().x * frame.sizePx().y, nullptr),
       depths_(int64_t{4} * frame.sizePx().x * frame.sizePx().y * static_cast<int64_t>(places_.size()),
               nullptr),
       ids_(depths_.bytes(), nullptr) {
   // Every frame begins by clearing what the one before listed.
+  queue_.clearUint(0);
   list_.clearUint(0);
   depths_.clearUint(0);
   ids_.clearUint(TriangleIds::kNone);
@@ -120,9 +122,9 @@ void SampleRaster::overTriangles(Frame& frame, const gl::Program& small, const g
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
   } else {
     dispatchOverTriangles(small, int64_t{kSmallLanes} * frame.geometry().triangleCount());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  queue_.dispatch(large);
+  large.dispatch({kSampleLargeGroups, 1}, {1, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 

@@ -6,7 +6,6 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/frame/frame.h"
-#include "renderer/frame/raster_queue.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"
 
@@ -88,8 +87,7 @@ class SampleRaster {
   const gl::Program &clear_, &empty_, &reachOf_, &smallDepth_, &largeDepth_, &groups_, &smallIds_, &largeIds_,
       &finish_;
   gl::Texture reach_, marks_;
-  RasterQueue queue_;
-  gl::Buffer list_, depths_, ids_;
+  gl::Buffer queue_, list_, depths_, ids_;
 };
 
 /// Uniforms of sample_marks.comp.glsl.

@@ -8,7 +8,7 @@
 #include "renderer/surfaces/tessellated_surface.h"
 #include "renderer/techniques/recursion/part_settings.h"
 #include "renderer/techniques/recursion/recursion_bindings.h"
-#include "renderer/techniques/recursion/vertex_array.h"
+#include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 

@@ -22,6 +22,11 @@ const SettingsTable<ByDeviation>& ByDeviation::table() {
        "Schwarz 2009, section 7.4.2"},
       {&S::triangleRule, "triangle_rule", "Which bound gives the factors of cubic triangles",
        "Schwarz 2009, sections 7.4.3 and 7.4.4"},
+      {&S::space, "space",
+       "Where the deviation is bounded: in eye coordinates with each patch's own tolerance, in the scene's "
+       "with that "
+       "of its middle, or on the screen (rectangles)",
+       "Abi-Ezzi and Shirman 1991; Schwarz 2009, section 7.4.2"},
       {&S::strict, "strict",
        "Allow for displacements away from the middle of the picture, which look larger than their size"},
       {&S::most, "most", {1, 64}, "segments", "Most segments of a side"}};
@@ -60,6 +65,7 @@ gl::ShaderDefines factorDefines(gl::ShaderDefines defines, const FactorSettings&
         surfaces::constantOf(deviation->triangleRule == TriangleRule::PnEstimate ? surfaces::PnBound::Boundary
                              : deviation->triangleRule == TriangleRule::PnTied   ? surfaces::PnBound::Tied
                                                                                  : surfaces::PnBound::Safe));
+  if (deviation && deviation->space == FactorSpace::Screen) defines["SCREEN"] = "1";
   return defines;
 }
 
@@ -89,11 +95,23 @@ FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const F
       factors_(int64_t{patches.count()} * int64_t{sizeof(PatchFactors)}, nullptr),
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
       bounds_((settings.precompute ? int64_t{patches.count()} : 1) * int64_t{sizeof(PatchBounds)}, nullptr) {
+  requireBounds(frame.scene());
   if (!settings.precompute) return;
   patches_.bindStorage();
   bounds_.bindStorage(kPatchBoundsBuffer);
   dispatch(frame.context().programs().compute(
       kFactors, with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS")));
+}
+
+void FactorPass::requireBounds(const scene::Scene& scene) const {
+  const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
+  if (!deviation || deviation->space != FactorSpace::Screen) return;
+  if (settings_.precompute)
+    throw Error("bounds on the screen depend on the view", "precompute",
+                "leave it off, or use another factors.space");
+  for (const surfaces::Patch& patch : scene.surfaces.patches)
+    if (patch.domain == surfaces::Domain::Triangle)
+      throw Error("no bound is known of projected triangles", "factors.space", "use lighting or object");
 }
 
 void FactorPass::dispatch(const gl::Program& program) const {
@@ -105,26 +123,50 @@ void FactorPass::dispatch(const gl::Program& program) const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void FactorPass::runFactors(frame::Frame& frame, const gl::Program& program) const {
+  const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
+  const auto* uniform = std::get_if<BySegments>(&settings_.factors);
+  program.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("nearest", static_cast<float>(frame::nearPlane(frame)));
+  if (deviation)
+    program.set("tolerance", static_cast<float>(surfaces::objectTolerance(
+                                 deviation->tolerancePx, 1.0, frame.tanHalfFov(), frame.sizePx().y)));
+  const glm::dmat4 toCamera = frame.anchorToCamera();
+  program.set("commonDepth", deviation && deviation->space == FactorSpace::Object
+                                 ? static_cast<float>(-toCamera[3].z)
+                                 : 0.0F);
+  program.set("pxAtDistance", static_cast<float>(frame.sizePx().y / (2.0 * frame.tanHalfFov())));
+  program.set("tolerancePx", deviation ? static_cast<float>(deviation->tolerancePx) : 0.0F);
+  program.set("mostSegments", deviation ? deviation->most : kMostSegments);
+  program.set("uniformSegments", uniform ? uniform->segments : 0);
+  program.set("cull", settings_.cull ? 1 : 0);
+  program.set("strict", deviation && deviation->strict ? 1 : 0);
+  dispatch(program);
+}
+
+int64_t FactorPass::countCapped(frame::Frame& frame) const {
+  gl::ShaderDefines defines =
+      with(factorDefines(patches_.defines(), settings_), "BOUNDS_MADE", settings_.precompute);
+  defines["COUNT_CAPPED"] = "1";
+  const gl::Buffer flags(own_.bytes(), nullptr);
+  patches_.bindStorage();
+  flags.bindStorage(kOwnFactorsBuffer);
+  bounds_.bindStorage(kPatchBoundsBuffer);
+  runFactors(frame, frame.context().programs().compute(kFactors, defines));
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  int64_t out = 0;
+  for (const glm::uvec2& flag : flags.read<glm::uvec2>(0, patches_.count())) out += flag.x;
+  return out;
+}
+
 void FactorPass::run(frame::Frame& frame) const {
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);
   {
     const auto scope = frame.passes().open("tessellation/factors");
-    const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
-    const auto* uniform = std::get_if<BySegments>(&settings_.factors);
-    factorsProgram_.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
-    factorsProgram_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-    factorsProgram_.set("nearest", static_cast<float>(frame::nearPlane(frame)));
-    if (deviation)
-      factorsProgram_.set(
-          "tolerance", static_cast<float>(surfaces::objectTolerance(deviation->tolerancePx, 1.0,
-                                                                    frame.tanHalfFov(), frame.sizePx().y)));
-    factorsProgram_.set("mostSegments", deviation ? deviation->most : kMostSegments);
-    factorsProgram_.set("uniformSegments", uniform ? uniform->segments : 0);
-    factorsProgram_.set("cull", settings_.cull ? 1 : 0);
-    factorsProgram_.set("strict", deviation && deviation->strict ? 1 : 0);
-    dispatch(factorsProgram_);
+    runFactors(frame, factorsProgram_);
   }
   const auto scope = frame.passes().open("tessellation/counts");
   factors_.bindStorage(kFactorsBuffer);

@@ -25,6 +25,18 @@ constexpr EnumNames<TriangleRule, 4> enumNames(TriangleRule) {
             {TriangleRule::Sides, "sides"}}}};
 }
 
+/// Where a patch's deviation is bounded (SC-59).
+enum class FactorSpace {
+  Lighting,  ///< eye coordinates, a rigid transform away from the scene's, with a tolerance for each patch
+  Object,    ///< the scene's coordinates, with one tolerance for all, that of the anchor's distance
+  Screen     ///< pixels: of the projected patch, which perspective makes rational
+};
+constexpr EnumNames<FactorSpace, 3> enumNames(FactorSpace) {
+  return {{{{FactorSpace::Lighting, "lighting"},
+            {FactorSpace::Object, "object"},
+            {FactorSpace::Screen, "screen"}}}};
+}
+
 /// How sides are divided; the numbers of spacing.h.
 enum class Spacing {
   Integer = surfaces::kSpacingInteger,
@@ -53,6 +65,7 @@ struct ByDeviation {
   double tolerancePx = 0.5;
   surfaces::FactorRule rule = surfaces::FactorRule::AbiEzziShirman;
   TriangleRule triangleRule = TriangleRule::Sides;
+  FactorSpace space = FactorSpace::Lighting;
   bool strict = false;
   int most = 64;
   static const SettingsTable<ByDeviation>& table();
@@ -83,6 +96,10 @@ class FactorPass {
   /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 
+  /// Patches whose bound asks for more segments than a side may have, or of which no bound is known: those
+  /// may deviate by more than the tolerance. Computes the last frame's factors again and waits for the GPU.
+  int64_t countCapped(frame::Frame& frame) const;
+
   const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer: PatchFactors
   const gl::Buffer& ownFactors() const {
     return own_;
@@ -93,7 +110,9 @@ class FactorPass {
  private:
   const PatchBuffers& patches_;
   FactorSettings settings_;
+  void requireBounds(const scene::Scene& scene) const;
   void dispatch(const gl::Program& program) const;
+  void runFactors(frame::Frame& frame, const gl::Program& program) const;
 
   const gl::Program &factorsProgram_, &countsProgram_;
   gl::Buffer own_, factors_, counts_, bounds_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 1: factors of each patch for itself, 0 where it lies outside the view. See factor_pass.h.
+// Phase 1: factors of each patch for itself, 0 where it lies outside the view. COUNT_CAPPED: in their place, whether more
+// segments would be needed. See factor_pass.h.
 #include "renderer/surfaces/factor_rules.h"
 #include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
@@ -22,11 +23,30 @@ uniform int mostSegments;    // <= kMostSegments
 uniform int uniformSegments; // 0: by deviation
 uniform int cull, strict;
 
+uniform float commonDepth;    // > 0: one tolerance for all patches, that of this distance
+uniform float pxAtDistance;   // pixels of a unit at distance 1
+uniform float tolerancePx;
+
+// What is bounded. SCREEN: pixels, with weights that hold the distance.
+vec4 boundedPoint(int at) {
+#ifdef SCREEN
+  const vec4 p = anchorToCamera * patchPoints[at];
+  return vec4(p.xy * pxAtDistance, 0.0, -p.z);
+#else
+  return patchPoints[at];
+#endif
+}
+
 vec3 projected(vec4 p) { return p.w == 0.0 ? p.xyz : p.xyz / p.w; }
+
+bool capped = false;  // more segments would be needed
 
 // A NaN counts as too many. Rounded up, so that a bound is kept.
 int units(float segments) {
-  if (!(segments <= float(mostSegments))) return mostSegments * kSegmentUnit;
+  if (!(segments <= float(mostSegments))) {
+    capped = true;
+    return mostSegments * kSegmentUnit;
+  }
   return max(kSegmentUnit, int(ceil(segments * float(kSegmentUnit))));
 }
 
@@ -42,7 +62,7 @@ PatchBounds boxOf(int first, int count) {
   out_.second = vec3(0.0);
   out_.unused = 0.0;
   for (int i = 0; i < count; ++i) {
-    const vec4 point = patchPoints[first + i];
+    const vec4 point = boundedPoint(first + i);
     const vec3 p = projected(point);
     out_.weight = min(out_.weight, point.w);
     if (!(point.w > 0.0)) out_.finite = 0u;
@@ -56,31 +76,31 @@ PatchBounds boxOf(int first, int count) {
 vec3 rectangleBounds(int first, uint shape, vec3 centre, float eps) {
   const int m = degreeU(shape), n = degreeV(shape), count = pointCount(shape);
   float reach = 0.0;
-  for (int i = 0; i < count; ++i) reach = max(reach, length(projected(patchPoints[first + i]) - centre));
+  for (int i = 0; i < count; ++i) reach = max(reach, length(projected(boundedPoint(first + i)) - centre));
   reach = max(reach - eps, 0.0);
   float uu = 0.0, uv = 0.0, vv = 0.0;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= m; ++i) {
       const int at = first + i + (m + 1) * j;
-      vec4 p = patchPoints[at];
+      vec4 p = boundedPoint(at);
       p.xyz -= p.w * centre;
       if (i + 1 <= m) {
-        vec4 a = patchPoints[at + 1];
+        vec4 a = boundedPoint(at + 1);
         a.xyz -= a.w * centre;
         if (i + 2 <= m) {
-          vec4 b = patchPoints[at + 2];
+          vec4 b = boundedPoint(at + 2);
           b.xyz -= b.w * centre;
           uu = max(uu, size4(b - 2.0 * a + p, reach));
         }
         if (j + 1 <= n) {
-          vec4 c = patchPoints[at + m + 1], d = patchPoints[at + m + 2];
+          vec4 c = boundedPoint(at + m + 1), d = boundedPoint(at + m + 2);
           c.xyz -= c.w * centre;
           d.xyz -= d.w * centre;
           uv = max(uv, size4(d - a - c + p, reach));
         }
       }
       if (j + 2 <= n) {
-        vec4 a = patchPoints[at + m + 1], b = patchPoints[at + 2 * (m + 1)];
+        vec4 a = boundedPoint(at + m + 1), b = boundedPoint(at + 2 * (m + 1));
         a.xyz -= a.w * centre;
         b.xyz -= b.w * centre;
         vv = max(vv, size4(b - 2.0 * a + p, reach));
@@ -168,17 +188,9 @@ void see(inout Seen seen, vec3 point) {
   seen.offAxis = max(seen.offAxis, dot(p.xy, p.xy) / (near_ * near_));
 }
 
-void main() {
-  const uint number = gl_GlobalInvocationID.x;
-  if (number >= patchCount) return;
-  const TessellatedPatch patch_ = patches[number];
-  const uint shape = shapeOf(patch_);
-  const int count = pointCount(shape), first = int(patch_.firstPoint);
-#ifdef MAKE_BOUNDS
-  PatchBounds made = boxOf(first, count);
-  if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
-  bounds[number] = made;
-#else
+#ifndef MAKE_BOUNDS
+uvec2 factorsOf(uint number, uint shape, int first) {
+  const int count = pointCount(shape);
   Seen seen = Seen(3e38, 0.0, true, true, true, true, true);
 #ifdef BOUNDS_MADE
   const PatchBounds box = bounds[number];
@@ -188,19 +200,22 @@ void main() {
   for (int i = 0; i < count; ++i) see(seen, projected(patchPoints[first + i]));
 #endif
   // Only a patch with positive weights lies within the hull of its control points.
-  if (cull != 0 && box.finite != 0u && (seen.left || seen.right || seen.below || seen.above || seen.behind)) {
-    ownFactors[number] = uvec2(0u);
-    return;
-  }
-  if (uniformSegments > 0) {
-    ownFactors[number] = packedUnits(ivec4(uniformSegments * kSegmentUnit));
-    return;
-  }
-  float eps = tolerance * max(seen.least, nearest);
-  if (strict != 0) eps /= sqrt(1.0 + min(seen.offAxis, dot(rayScale, rayScale)));
+#ifdef SCREEN
+  bool inHull = true;
+  for (int i = 0; i < count; ++i) inHull = inHull && patchPoints[first + i].w > 0.0;
+#else
+  const bool inHull = box.finite != 0u;
+#endif
+  if (cull != 0 && inHull && (seen.left || seen.right || seen.below || seen.above || seen.behind)) return uvec2(0u);
+  if (uniformSegments > 0) return packedUnits(ivec4(uniformSegments * kSegmentUnit));
+  float eps = tolerance * max(commonDepth > 0.0 ? commonDepth : seen.least, nearest);
+  if (strict != 0 && commonDepth <= 0.0) eps /= sqrt(1.0 + min(seen.offAxis, dot(rayScale, rayScale)));
+#ifdef SCREEN
+  eps = tolerancePx;
+#endif
   if (box.finite == 0u) {
-    ownFactors[number] = packedUnits(ivec4(mostSegments * kSegmentUnit));
-    return;
+    capped = true;
+    return packedUnits(ivec4(mostSegments * kSegmentUnit));
   }
 #ifdef BOUNDS_MADE
   const vec3 second = box.second;
@@ -210,9 +225,28 @@ void main() {
   if (isRectangle(shape)) {
     const vec2 segments =
         segmentsWithin(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE, float(mostSegments));
-    ownFactors[number] = packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
-  } else {
-    ownFactors[number] = packedUnits(triangleUnits(second, eps, degreeU(shape)));
+    return packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
   }
+  return packedUnits(triangleUnits(second, eps, degreeU(shape)));
+}
+#endif
+
+void main() {
+  const uint number = gl_GlobalInvocationID.x;
+  if (number >= patchCount) return;
+  const TessellatedPatch patch_ = patches[number];
+  const uint shape = shapeOf(patch_);
+  const int first = int(patch_.firstPoint);
+#ifdef MAKE_BOUNDS
+  PatchBounds made = boxOf(first, pointCount(shape));
+  if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
+  bounds[number] = made;
+#else
+  const uvec2 own = factorsOf(number, shape, first);
+#ifdef COUNT_CAPPED
+  ownFactors[number] = uvec2(capped ? 1u : 0u, 0u);
+#else
+  ownFactors[number] = own;
+#endif
 #endif
 }

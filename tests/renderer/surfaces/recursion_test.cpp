@@ -8,6 +8,7 @@
 #include "experiments/base/error.h"
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/curved/teapot.h"
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/central_differences.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/patch_builder.h"

@@ -7,6 +7,7 @@
 #include "renderer/surfaces/factors.h"
 #include "renderer/surfaces/other_patterns.h"
 #include "renderer/surfaces/surface_errors.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -120,43 +121,100 @@ TEST_F(Tessellation, TheSurfaceReadBackIsExactAndTheSameTwice) {
 // The shader's factors in float are those of factors.h in double, but for patches whose number of segments
 // lies within rounding of a whole one.
 TEST_F(Tessellation, FactorsAreThoseOfTheBoundsInDoublePrecision) {
-  const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
-  const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, {320, 240});
+  for (const std::string space : {"lighting", "object"}) {
+    const scene::Scene scene = makeScene("curved/sheet", {{"relief", 2.0}});
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {320, 240});
+    const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+    const auto technique = info.make(
+        ParameterValues(info.parameters, {{"factors", std::string("deviation")}, {"factors.space", space}}));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    const auto surface = technique->tessellation(frame);
+    const surfaces::PatchSet& set = scene.surfaces;
+    std::vector<glm::dvec2> segments;
+    for (const surfaces::Patch& patch : set.patches) {
+      double depth = 1e300;
+      for (uint32_t i = 0; i < 16; ++i)
+        depth = std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - surface->view.eye,
+                                         surface->view.forward));
+      if (space == "object") depth = glm::dot(gpuScene.anchor() - surface->view.eye, surface->view.forward);
+      const double eps = surfaces::objectTolerance(0.5, depth, frame.tanHalfFov(), 240);
+      segments.push_back(surfaces::segmentsOf(surfaces::derivativeBounds(set, patch, eps), eps,
+                                              surfaces::FactorRule::AbiEzziShirman));
+    }
+    int compared = 0;
+    for (size_t i = 0; i < set.patches.size(); ++i) {
+      if (surface->factors[i][0] == 0) continue;
+      for (size_t side = 0; side < 4; ++side) {
+        const surfaces::Neighbour& beyond = set.neighbours[i][side];
+        double own = side % 2 == 0 ? segments[i].x : segments[i].y;
+        if (beyond.patch >= 0 && surface->factors[size_t(beyond.patch)][0] > 0)
+          own = std::max(own, beyond.side % 2 == 0 ? segments[size_t(beyond.patch)].x
+                                                   : segments[size_t(beyond.patch)].y);
+        if (std::abs(own - std::round(own)) < 1e-4) continue;
+        EXPECT_EQ(surface->factors[i][side], surfaces::wholeFactor(own, 64))
+            << space << " patch " << i << " side " << side;
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 500) << space;
+  }
+}
+
+// Those whose factor, in double precision and without a limit, is above the limit.
+TEST_F(Tessellation, PatchesThatNeedMoreSegmentsThanAllowedAreCounted) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const auto segmentsFor = [&](int64_t most) {
+    Given given = {{"factors", std::string("deviation")},
+                   {"factors.tolerance_px", 0.1},
+                   {"factors.triangle_rule", std::string("pn_safe")},
+                   {"factors.most", most},
+                   {"cull", false}};
+    return given;
+  };
+  const frame::GpuScene gpuScene(torus);
+  frame::Frame frame(context(), torus, gpuScene, {320, 240});
   const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
-  const auto technique = info.make(ParameterValues(info.parameters, {}));
-  technique->prepare(frame);
-  frame.begin();
-  technique->render(frame);
-  frame.end();
-  const auto surface = technique->tessellation(frame);
-  const surfaces::PatchSet& set = scene.surfaces;
-  std::vector<glm::dvec2> segments;
+  const auto capped = [&](int64_t most) {
+    const auto technique = info.make(ParameterValues(info.parameters, segmentsFor(most)));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    for (const Counter& counter : technique->count(frame))
+      if (counter.name == "patches_capped") return counter.value;
+    return -1.0;
+  };
+  EXPECT_EQ(capped(64), 0);
+  // One factor for all sides of a triangle.
+  std::vector<double> needed;
+  const surfaces::PatchSet& set = torus.surfaces;
+  const surfaces::SurfaceView view = viewOf(frame);
   for (const surfaces::Patch& patch : set.patches) {
     double depth = 1e300;
-    for (uint32_t i = 0; i < 16; ++i)
-      depth = std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - surface->view.eye,
-                                       surface->view.forward));
-    const double eps = surfaces::objectTolerance(0.5, depth, frame.tanHalfFov(), 240);
-    segments.push_back(surfaces::segmentsOf(surfaces::derivativeBounds(set, patch, eps), eps,
-                                            surfaces::FactorRule::AbiEzziShirman));
+    for (uint32_t i = 0; i < 10; ++i)
+      depth =
+          std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - view.eye, view.forward));
+    const double eps = surfaces::objectTolerance(0.1, depth, frame.tanHalfFov(), 240);
+    needed.push_back(std::sqrt(surfaces::constantOf(surfaces::PnBound::Safe) *
+                               surfaces::largestTangentDistance(set, patch) / eps));
   }
-  int compared = 0;
-  for (size_t i = 0; i < set.patches.size(); ++i) {
-    if (surface->factors[i][0] == 0) continue;
-    for (size_t side = 0; side < 4; ++side) {
-      const surfaces::Neighbour& beyond = set.neighbours[i][side];
-      double own = side % 2 == 0 ? segments[i].x : segments[i].y;
-      if (beyond.patch >= 0 && surface->factors[size_t(beyond.patch)][0] > 0)
-        own = std::max(
-            own, beyond.side % 2 == 0 ? segments[size_t(beyond.patch)].x : segments[size_t(beyond.patch)].y);
-      if (std::abs(own - std::round(own)) < 1e-4) continue;
-      EXPECT_EQ(surface->factors[i][side], surfaces::wholeFactor(own, 64))
-          << "patch " << i << " side " << side;
-      ++compared;
-    }
+  std::vector<double> sorted = needed;
+  std::sort(sorted.begin(), sorted.end());
+  for (const size_t quarter : {1, 2, 3}) {
+    const int most = static_cast<int>(sorted[quarter * sorted.size() / 4]);
+    const auto more = [&](double by) {
+      return double(std::count_if(needed.begin(), needed.end(), [&](double n) { return n > most + by; }));
+    };
+    EXPECT_GT(more(0.0), 20) << most;
+    EXPECT_LT(more(0.0), double(needed.size())) << most;
+    // Between those that are out of rounding's reach.
+    EXPECT_GE(capped(most), more(1e-4)) << most;
+    EXPECT_LE(capped(most), more(-1e-4)) << most;
   }
-  EXPECT_GT(compared, 500);
 }
 
 TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
@@ -398,6 +456,19 @@ TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
         }
 }
 
+/// Normal fields of rectangles, in float as in double precision, whichever shader evaluates them.
+TEST_F(TessellatedSurfaces, RectanglesHaveTheirOwnNormals) {
+  const scene::Scene scene = makeScene(
+      "curved/subdivision", {{"approximation", std::string("acc_tangents")}, {"steps", int64_t{0}}});
+  for (const std::string form : {"vertex_parallel", "patch_parallel", "four_threads"}) {
+    const auto surface = made(scene, text({{"form", form}}));
+    EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).most, 0.01) << form;
+  }
+  // The geometry's are others.
+  const scene::Scene plain = makeScene("curved/subdivision", {{"steps", int64_t{0}}});
+  EXPECT_GT(surfaces::normalErrors(plain.surfaces, *made(scene, {})).most, 1.0);
+}
+
 TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
   const scene::Scene scene = makeScene("curved/teapot");
   const auto one = made(scene, {}), four = made(scene, text({{"form", "four_threads"}}));
@@ -429,6 +500,56 @@ TEST_F(TessellatedSurfaces, InvocationsThatShareAPatchMakeTheSameOfIt) {
     }
 }
 
+/// The vertex shader makes each vertex from a stored patch and sample (SC-76): on the surface, without
+/// cracks, and the picture of vertices stored.
+TEST_F(TessellatedSurfaces, TheVertexShaderEvaluatesStoredSamples) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string form : {"patch_parallel", "vertex_parallel"}) {
+      const Given given = text({{"form", form}, {"evaluation", "vertex_shader"}});
+      const auto surface = made(scene, given);
+      ASSERT_GT(surface->positions.size(), 1000U) << form;
+      EXPECT_LT(largestError(scene, *surface), 1e-5) << form;
+      EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).p99, 0.1) << form;
+      expectNoCracks(scene, *surface, form);
+      const Image stored = render(scene, "tessellation/compute", {}, {96, 72}).product;
+      EXPECT_LT(meanDifference(stored, render(scene, "tessellation/compute", given, {96, 72}).product), 1e-6)
+          << form;
+    }
+}
+
+/// Passes beside the one that is shown change no picture, whatever they draw (SC-75); neither does a coarse
+/// mesh drawn first (SC-64). Triangles stored by transform feedback take three vertices each.
+TEST_F(Tessellation, SeveralPassesShowWhatOneDoes) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const auto whole = [](const char* name, int64_t value) {
+    return std::pair<std::string, ParameterValue>(name, value);
+  };
+  const Rendered one =
+      render(scene, "tessellation/patterns", {{"patterns", std::string("integer")}}, {96, 72}, true);
+  const Rendered compute = render(scene, "tessellation/compute",
+                                  {{"raster", std::string("hardware")}, whole("passes", 3)}, {96, 72}, true);
+  EXPECT_LT(meanDifference(one.product, compute.product), 1e-6);
+  for (const int64_t passes : {1, 2, 5})
+    for (const char* reuse : {"evaluate", "soup"})
+      for (const bool coarseFirst : {false, true}) {
+        if (coarseFirst && std::string(reuse) == "soup") continue;
+        const Rendered made = render(scene, "tessellation/patterns",
+                                     {{"patterns", std::string("integer")},
+                                      {"reuse", std::string(reuse)},
+                                      {"coarse_first", coarseFirst},
+                                      whole("passes", passes)},
+                                     {96, 72}, true);
+        EXPECT_LT(meanDifference(one.product, made.product), 1e-6) << passes << reuse << coarseFirst;
+        EXPECT_EQ(made.counter("soup_left_out"), 0);
+        EXPECT_NEAR(
+            made.counter("soup_mib"),
+            std::string(reuse) == "soup" ? compute.counter("tessellated_triangles") * 96 / 1048576.0 : 0.0,
+            1e-9);
+      }
+}
+
 /// Spacings of real factors, with sides that run in all combinations of directions.
 TEST_F(TessellatedSurfaces, AllSpacingsAreWithoutCracks) {
   const scene::Scene scene = makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}});
@@ -449,6 +570,56 @@ TEST_F(TessellatedSurfaces, SpacingsWithoutLongerSegmentsKeepTheTolerance) {
     const auto surface = made(scene, text({{"spacing", spacing}}));
     EXPECT_LT(surfaces::deviationOf(scene.surfaces, *surface).atParametersPx.most, 0.5) << spacing;
   }
+}
+
+/// On the screen: triangles of projected vertices against the projected surface at equal parameters, in
+/// double precision. Patches seen edge-on need fewer segments there than in eye coordinates.
+TEST_F(TessellatedSurfaces, BoundsOnTheScreenHoldThere) {
+  for (const char* name : {"curved/sheet", "curved/teapot"}) {
+    const scene::Scene scene = makeScene(name);
+    Given given = text({{"factors", "deviation"}, {"factors.space", "screen"}});
+    const auto surface = made(scene, given);
+    ASSERT_GT(surface->triangles.size(), 1000U);
+    const surfaces::SurfaceView& view = surface->view;
+    const auto seen = [&](const glm::dvec3& p) {
+      const glm::dvec3 d = p - view.eye;
+      const double depth = glm::dot(d, view.forward);
+      return glm::dvec3(glm::dot(d, view.right) / depth, glm::dot(d, view.up) / depth, depth);
+    };
+    double most = 0.0;
+    int samples = 0;
+    for (const glm::uvec3& t : surface->triangles) {
+      if (surface->patches[t.x] != surface->patches[t.y] || surface->patches[t.x] != surface->patches[t.z])
+        continue;
+      const surfaces::Patch& patch = scene.surfaces.patches[surface->patches[t.x]];
+      std::array<glm::dvec3, 3> corners;
+      bool behind = false;
+      for (int k = 0; k < 3; ++k) {
+        corners[size_t(k)] = seen(surface->anchor + glm::dvec3(surface->positions[t[k]]));
+        behind = behind || corners[size_t(k)].z < view.nearest;
+      }
+      if (behind) continue;
+      for (const glm::dvec3 w : {glm::dvec3(1, 1, 1) / 3.0, glm::dvec3(0.5, 0.5, 0), glm::dvec3(0, 0.5, 0.5),
+                                 glm::dvec3(0.5, 0, 0.5)}) {
+        const auto &a = surface->parameters[t.x], &b = surface->parameters[t.y],
+                   &c = surface->parameters[t.z];
+        const auto at =
+            surfaces::rectanglePoint(w.x * a.u + w.y * b.u + w.z * c.u, w.x * a.v + w.y * b.v + w.z * c.v);
+        const glm::dvec3 exact =
+            seen(surfaces::evaluate(scene.surfaces, patch, at, surfaces::Order::Position).p);
+        const glm::dvec3 flat = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
+        most = std::max(most, glm::length(glm::dvec2(exact - flat)) * view.pxAtDistance);
+        ++samples;
+      }
+    }
+    EXPECT_GT(samples, 4000) << name;
+    EXPECT_LT(most, 0.5 + 1e-3) << name;
+    EXPECT_GT(most, 0.05) << name;
+    EXPECT_LT(surface->triangles.size(), made(scene, {})->triangles.size()) << name;
+  }
+  EXPECT_THROW(
+      made(makeScene("curved/double_torus"), text({{"factors", "deviation"}, {"factors.space", "screen"}})),
+      Error);
 }
 
 TEST_F(TessellatedSurfaces, BoundsMadeOnceKeepTheToleranceToo) {
@@ -488,7 +659,11 @@ TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
   };
   refused("tessellation/compute", text({{"form", "vertex_parallel"}, {"evaluation", "forward_differences"}}));
   refused("tessellation/compute", text({{"form", "four_threads"}, {"spacing", "geomorph"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"raster", "compute"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"spacing", "geomorph"}}));
   refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
+  refused("tessellation/patterns", {{"draw", std::string("multi_draw")}, {"coarse_first", true}});
+  refused("tessellation/patterns", {{"reuse", std::string("soup")}, {"coarse_first", true}});
   // Known with the scene alone.
   EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
 }

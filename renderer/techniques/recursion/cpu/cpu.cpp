@@ -6,9 +6,9 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/surfaces/recursion.h"
-#include "renderer/techniques/recursion/vertex_array.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 

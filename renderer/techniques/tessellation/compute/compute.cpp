@@ -20,10 +20,12 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/depth_passes.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
+#include "renderer/techniques/tessellation/vertex_feedback.h"
 
 namespace limen::techniques {
 namespace {
@@ -31,7 +33,7 @@ namespace {
 /// Who makes vertices and indices.
 struct PatchParallel {
   static constexpr const char *kKind = "patch_parallel", *kSummary = "some invocations for each patch";
-  int lanes = 0, verticesEach = 8;
+  int lanes = 0, verticesEach = 16;
   static const SettingsTable<PatchParallel>& table() {
     static const SettingsTable<PatchParallel> kTable = {
         {&PatchParallel::lanes, "lanes", oneOf({0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}), "invocations",
@@ -81,6 +83,13 @@ struct EvaluateByDifferences {
   }
 };
 
+/// SC-76.
+struct EvaluateInVertexShader {
+  static constexpr const char
+      *kKind = "vertex_shader",
+      *kSummary = "by the vertex shader, in each pass, from a patch and a sample stored for each vertex";
+};
+
 /// Who makes the vertices of a side that two patches have in common (SC-74).
 enum class SharedSides { Evaluated, Copied };
 constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
@@ -94,11 +103,12 @@ struct ComputeTessellationSettings {
   FactorSettings tessellation;
   std::variant<PatchParallel, VertexParallel, FourThreads> form;
   Spacing spacing = Spacing::Integer;
-  std::variant<EvaluateDirectly, EvaluateByDifferences> evaluation;
+  std::variant<EvaluateDirectly, EvaluateByDifferences, EvaluateInVertexShader> evaluation;
   SharedSides sides = SharedSides::Evaluated;
   compute::ScanForm scan = compute::ScanForm::Auto;
   frame::Raster raster = frame::Raster::Auto;
   int64_t capacity = 0;
+  int passes = 1;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
     using S = ComputeTessellationSettings;
@@ -122,13 +132,29 @@ struct ComputeTessellationSettings {
          "vertices",
          "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
          "Patches that do not fit are left out and counted"},
+        {&S::passes,
+         "passes",
+         {1, 8},
+         "passes",
+         "Passes over the same triangles in a frame. All but the last make depths alone; with more than one, "
+         "or "
+         "evaluation in the vertex shader, the driver makes pixels",
+         "Schwarz 2009, section 7.6.1"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
   bool byDifferences() const { return std::holds_alternative<EvaluateByDifferences>(evaluation); }
   bool vertexParallel() const { return std::holds_alternative<VertexParallel>(form); }
   bool fourThreads() const { return std::holds_alternative<FourThreads>(form); }
+  bool inVertexShader() const { return std::holds_alternative<EvaluateInVertexShader>(evaluation); }
+  bool needsDriver() const { return passes > 1 || inVertexShader(); }
   void check() const {
+    if (needsDriver() && raster == frame::Raster::Compute)
+      throw Error("several passes, and vertex shaders, are for the driver's rasteriser", "raster",
+                  "use raster: hardware");
+    if (inVertexShader() && (fourThreads() || spacing > Spacing::Dyadic || sides == SharedSides::Copied))
+      throw Error("the vertex shader takes equal steps, and each vertex for itself", "evaluation",
+                  "use spacing: integer or dyadic, sides: evaluated, and another form than four_threads");
     if (vertexParallel() && byDifferences())
       throw Error("forward differences need invocations that go along rows", "evaluation",
                   "use form: patch_parallel or four_threads");
@@ -143,7 +169,7 @@ class ComputeTessellation : public Technique {
   using Settings = ComputeTessellationSettings;
   explicit ComputeTessellation(const Settings& settings) : settings_(settings) {}
   ~ComputeTessellation() override {
-    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
+    if (instanceArray_) glDeleteVertexArrays(1, &instanceArray_);
   }
 
   void prepare(frame::Frame& frame) override {
@@ -151,7 +177,8 @@ class ComputeTessellation : public Technique {
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
     requireRectangles(frame.scene());
     requireInvocations();
-    lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
+    lists_ = !settings_.needsDriver() &&
+             frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     factors_.emplace(frame, *patches_, settings_.tessellation, lists_, settings_.spacing);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
     picture_.emplace(frame, settings_.shading, "tessellation",
@@ -165,18 +192,27 @@ class ComputeTessellation : public Technique {
     if (settings_.sides == SharedSides::Copied) defines["COPIED"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
     totalsProgram_ = &programs.compute(folder + "totals.comp.glsl", defines);
-    verticesProgram_ = &programs.compute(
-        folder + (settings_.fourThreads() ? "four_lanes.comp.glsl" : "vertices.comp.glsl"), defines);
+    const bool inVertexShader = settings_.inVertexShader();
+    verticesProgram_ = &programs.compute(folder + (inVertexShader            ? "pattern_instances.comp.glsl"
+                                                   : settings_.fourThreads() ? "four_lanes.comp.glsl"
+                                                                             : "vertices.comp.glsl"),
+                                         defines);
     if (settings_.sides == SharedSides::Copied)
       copyProgram_ = &programs.compute(folder + "copy_sides.comp.glsl", defines);
     indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
+    gl::ShaderDefines drawDefines = inVertexShader ? patches_->defines() : gl::ShaderDefines();
+    if (inVertexShader) drawDefines["INSTANCES"] = "1";
     drawProgram_ =
-        &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
+        &programs.get({inVertexShader ? "renderer/techniques/tessellation/patterns/pattern.vert.glsl"
+                                      : folder + "surface.vert.glsl",
+                       "renderer/techniques/tessellation/surface.frag.glsl"},
+                      drawDefines);
+    if (settings_.passes > 1) otherPasses_.emplace(frame, "tessellation");
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
     capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
-    vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
+    vertices_.emplace(capacity_ * bytesPerVertex(), nullptr);
     // Written by four words.
     indices_.emplace((capacity_ * kIndicesPerVertex * 4 + 15) / 16 * 16, nullptr);
     makeVertexArray();
@@ -207,25 +243,17 @@ class ComputeTessellation : public Technique {
     factors_->factors().bindStorage(kFactorsBuffer);
     vertices_->bindStorage(kVerticesBuffer);
     indices_->bindStorage(kIndicesBuffer);
-    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
+    fill(frame, *verticesProgram_, "tessellation/vertices");
     if (copyProgram_) copySides(frame);
-    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    fill(frame, *indicesProgram_, "tessellation/indices");
     if (lists_) {
-      picture_->renderListed(frame, {*vertices_, *indices_, *count_});
+      picture_->renderListed(frame, {*vertices_, *indices_, *count_, capacity_ * kIndicesPerVertex / 3});
       return;
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
-    picture_->render(frame, [&] {
-      drawProgram_->use();
-      drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
-      glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-      glBindVertexArray(vertexArray_);
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, totals_->id());
-      glDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(offsetof(TessellationTotals, indices)));
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-      glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-    });
+    const auto draw = [&] { drawSurface(frame); };
+    if (otherPasses_) otherPasses_->render(frame, settings_.passes - 1, [&](int) { draw(); });
+    picture_->render(frame, draw);
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -236,7 +264,7 @@ class ComputeTessellation : public Technique {
     auto out = std::make_shared<surfaces::TessellatedSurface>();
     out->anchor = frame.gpuScene().anchor();
     out->view = viewOf(frame);
-    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+    for (const TessellatedVertex& vertex : readVertices(frame, totals)) {
       out->positions.push_back(vertex.position);
       out->normals.push_back(vertex.normal);
     }
@@ -260,29 +288,31 @@ class ComputeTessellation : public Technique {
     return out;
   }
 
-  std::vector<Counter> count(frame::Frame&) override {
+  std::vector<Counter> count(frame::Frame& frame) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
-    const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
+    const std::vector<TessellatedVertex> vertices = readVertices(frame, totals);
     double culled = 0.0, rungs[kRungs] = {};
     for (const PatchFactors& of : factors) culled += of.segments == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
-    return {
-        {"patches_culled", culled},
-        {"patches_left_out", double(totals.overflow)},
-        {"tessellated_vertices", double(totals.vertices)},
-        {"tessellated_triangles", double(readTriangles(totals).size())},
-        {"tessellated_indices", double(totals.indices)},
-        {"tessellated_mib",
-         (double(totals.vertices) * sizeof(TessellatedVertex) + 4.0 * double(totals.indices)) / 1048576.0},
-        {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
-        {"normals_from_corners", rungs[kRungCornerPlane]},
-        {"normals_none", rungs[kRungNone]}};
+    return {{"patches_culled", culled},
+            {"patches_capped", double(factors_->countCapped(frame))},
+            {"patches_left_out", double(totals.overflow)},
+            {"tessellated_vertices", double(totals.vertices)},
+            {"tessellated_triangles", double(readTriangles(totals).size())},
+            {"tessellated_indices", double(totals.indices)},
+            {"tessellated_mib",
+             (double(totals.vertices) * double(bytesPerVertex()) + 4.0 * double(totals.indices)) / 1048576.0},
+            {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
+            {"normals_from_corners", rungs[kRungCornerPlane]},
+            {"normals_none", rungs[kRungNone]}};
   }
 
   static std::vector<Quantity> quantities() {
     return {
         {"patches_culled", "Patches culled", "patches", Direction::Neither},
+        {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+         Direction::LowerIsBetter},
         {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
         {"tessellated_vertices", "Vertices made", "vertices", Direction::LowerIsBetter},
         {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
@@ -295,29 +325,66 @@ class ComputeTessellation : public Technique {
   }
 
  private:
+  int64_t bytesPerVertex() const {
+    return settings_.inVertexShader() ? sizeof(glm::uvec2) : sizeof(TessellatedVertex);
+  }
+
   std::vector<glm::uvec3> readTriangles(const TessellationTotals& totals) const {
     if (lists_) return indices_->read<glm::uvec3>(0, totals.indices / 3);
     return surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
   }
 
   void makeVertexArray() {
-    glCreateVertexArrays(1, &vertexArray_);
-    const auto attribute = [&](GLuint location, bool whole, int components, size_t offset) {
-      if (whole) {
-        glVertexArrayAttribIFormat(vertexArray_, location, components, GL_UNSIGNED_INT,
-                                   static_cast<GLuint>(offset));
-      } else {
-        glVertexArrayAttribFormat(vertexArray_, location, components, GL_FLOAT, GL_FALSE,
-                                  static_cast<GLuint>(offset));
-      }
-      glVertexArrayAttribBinding(vertexArray_, location, 0);
-      glEnableVertexArrayAttrib(vertexArray_, location);
-    };
-    attribute(0, false, 3, offsetof(TessellatedVertex, position));
-    attribute(1, true, 1, offsetof(TessellatedVertex, material));
-    attribute(2, false, 3, offsetof(TessellatedVertex, normal));
-    glVertexArrayVertexBuffer(vertexArray_, 0, vertices_->id(), 0, sizeof(TessellatedVertex));
-    glVertexArrayElementBuffer(vertexArray_, indices_->id());
+    if (!settings_.inVertexShader()) {
+      array_.emplace(*vertices_, *indices_);
+      return;
+    }
+    glCreateVertexArrays(1, &instanceArray_);
+    glVertexArrayAttribIFormat(instanceArray_, 0, 2, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(instanceArray_, 0, 0);
+    glEnableVertexArrayAttrib(instanceArray_, 0);
+    glVertexArrayVertexBuffer(instanceArray_, 0, vertices_->id(), 0, sizeof(glm::uvec2));
+    glVertexArrayElementBuffer(instanceArray_, indices_->id());
+  }
+
+  /// Of the last frame, in the order of slots. Waits for the GPU.
+  std::vector<TessellatedVertex> readVertices(frame::Frame& frame, const TessellationTotals& totals) const {
+    if (!settings_.inVertexShader()) return vertices_->read<TessellatedVertex>(0, totals.vertices);
+    const VertexFeedback feedback(std::max(totals.vertices, 1U));
+    gl::ShaderDefines defines = patches_->defines();
+    defines["INSTANCES"] = "1";
+    defines["CAPTURE"] = "1";
+    const gl::Program& program =
+        frame.context().programs().get({"renderer/techniques/tessellation/patterns/pattern.vert.glsl",
+                                        "renderer/techniques/tessellation/surface.frag.glsl"},
+                                       defines);
+    bindSurface(frame, program);
+    glEnable(GL_RASTERIZER_DISCARD);
+    feedback.capture(GL_POINTS, [&] { glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(totals.vertices)); });
+    glDisable(GL_RASTERIZER_DISCARD);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    return feedback.vertices().read<TessellatedVertex>(0, totals.vertices);
+  }
+
+  void bindSurface(frame::Frame& frame, const gl::Program& program) const {
+    program.use();
+    program.set("anchorToClip", frame::anchorToClip(frame));
+    if (array_) {
+      array_->bind();
+    } else {
+      patches_->bindStorage();
+      glBindVertexArray(instanceArray_);
+    }
+  }
+
+  void drawSurface(frame::Frame& frame) const {
+    bindSurface(frame, *drawProgram_);
+    glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, totals_->id());
+    glDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(offsetof(TessellationTotals, indices)));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
   }
 
   /// Waits for the GPU.
@@ -341,25 +408,34 @@ class ComputeTessellation : public Technique {
         static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
   }
 
-  /// `groups`: where in TessellationTotals.
-  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass) {
     const auto scope = frame.passes().open(pass);
     program.use();
     program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
-    glDispatchComputeIndirect(static_cast<GLintptr>(groups));
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    if (settings_.fourThreads() && &program == verticesProgram_) {
+      dispatchPatches(4);
+    } else {
+      // For the most invocations that a patch may have, but no more than occupy the device twice.
+      const int64_t most = settings_.vertexParallel() ? capacity_ * kIndicesPerVertex
+                                                      : int64_t{patches_->count()} * kMostLanes;
+      program.dispatch({static_cast<int>(std::min<int64_t>(most, 2 * manyInvocations(frame.context()))), 1},
+                       {kTessellationGroup, 1});
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void dispatchPatches(uint32_t perPatch) const {
+    const uint32_t groups =
+        (patches_->count() * perPatch + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+    const uint32_t rows = (groups + 65534) / 65535;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
   }
 
   void copySides(frame::Frame& frame) {
     const auto scope = frame.passes().open("tessellation/sides");
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    const uint32_t sides = patches_->count() * 4,
-                   groups = (sides + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup),
-                   rows = (groups + 65534) / 65535;
-    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+    dispatchPatches(4);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
@@ -387,7 +463,9 @@ class ComputeTessellation : public Technique {
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
   bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
   int64_t capacity_ = 0;  // vertices
-  uint32_t vertexArray_ = 0;
+  std::optional<DepthPasses> otherPasses_;
+  std::optional<SurfaceVertexArray> array_;
+  uint32_t instanceArray_ = 0;  // evaluation in the vertex shader
 };
 
 struct UniformFineSettings {
