@@ -4,7 +4,11 @@
 // others are queued in bands of rows. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
 // triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
 // triangles; see sample_raster.h. MARKED: of pixels that are listed already. KEEP: lists the small triangles that reach into
-// marked tiles and queues the others; KEPT: these small triangles alone.
+// marked tiles and queues the others; KEPT: these small triangles alone. PACKED: depth and index at once, in 64 bits.
+#ifdef PACKED
+#extension GL_ARB_gpu_shader_int64 : require
+#extension GL_NV_shader_atomic_int64 : require
+#endif
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/raster_regions.h"
 #include "renderer/frame/raster_triangle.glsl"
@@ -22,6 +26,8 @@ RasterRegion region = RasterRegion(ivec2(0), ivec2(0), 0, 0, 0, 0);  // of the t
 
 // A buffer, not an image: its atomics without a result cost no waiting.
 #ifdef KEEP
+#elif defined(PACKED)
+layout(std430, binding = kRasterDepthsBuffer) buffer Depths { uint64_t nearest[]; };  // depth, complement of the index
 #elif defined(IDS)
 layout(std430, binding = kRasterDepthsBuffer) readonly buffer Depths { uint depths[]; };
 layout(std430, binding = kRasterIdsBuffer) buffer Ids { uint ids[]; };
@@ -226,7 +232,9 @@ void shade(Triangle t, uint index, ivec2 pixel) {
 #endif
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
   const int at = placeOf(pixel);
-#if defined(IDS) && defined(REGIONS)
+#if defined(PACKED)
+  atomicMax(nearest[at], packUint2x32(uvec2(~index, bits)));
+#elif defined(IDS) && defined(REGIONS)
   if (depths[at] == bits) atomicMax(ids[at + 1], ~index);
 #elif defined(IDS)
   if (depths[at] == bits) atomicMin(ids[at], index);

@@ -25,19 +25,30 @@ Sharing sharingOf(uint32_t triangles, glm::ivec2 sizePx) {
   return int64_t{kShared.lanes} * triangles <= int64_t{2} * sizePx.x * sizePx.y ? kShared : kAlone;
 }
 
-const gl::Program& program(gl::Context& context, bool large, bool ids, bool peels, int vertexWords,
-                           const Sharing& sharing) {
+/// What a pass over the triangles gathers.
+enum class Gathers { Depths, Ids, Packed };
+
+const gl::Program& program(gl::Context& context, bool large, Gathers gathers,
+                           const ComputeRasterSettings& settings, const Sharing& sharing) {
   gl::ShaderDefines defines = {{"QUEUE_CAPACITY", std::to_string(kQueueCapacity) + "u"},
                                {"SMALL_LANES", std::to_string(sharing.lanes)},
                                {"SMALL_PIXELS", std::to_string(sharing.pixels)}};
   if (large) defines["LARGE"] = "1";
-  if (ids) defines["IDS"] = "1";
-  if (peels) defines["PEEL"] = "1";
-  if (vertexWords > 0) {
+  if (gathers == Gathers::Ids) defines["IDS"] = "1";
+  if (gathers == Gathers::Packed) defines["PACKED"] = "1";
+  if (settings.peels) defines["PEEL"] = "1";
+  if (settings.listedVertexWords > 0) {
     defines["LISTED"] = "1";
-    defines["POSITION_WORDS"] = std::to_string(vertexWords) + "u";
+    defines["POSITION_WORDS"] = std::to_string(settings.listedVertexWords) + "u";
   }
   return context.programs().compute("renderer/frame/compute_raster.comp.glsl", defines);
+}
+
+gl::ShaderDefines finishDefines(bool ids, bool packed) {
+  gl::ShaderDefines defines;
+  if (ids) defines["IDS"] = "1";
+  if (packed) defines["PACKED"] = "1";
+  return defines;
 }
 
 }  // namespace
@@ -47,42 +58,54 @@ Raster chosenRaster(Raster raster, const gl::Context& context) {
   return context.device().software ? Raster::Hardware : Raster::Compute;
 }
 
-ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels)
-    : ComputeRaster(context, sizePx, withIds, peels, 0) {}
-
-ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords)
-    : ComputeRaster(context, sizePx, true, false, vertexWords) {}
-
-ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels,
-                             int vertexWords)
-    : smallDepth_{&program(context, false, false, peels, vertexWords, kShared),
-                  &program(context, false, false, peels, vertexWords, kAlone)},
-      largeDepth_(program(context, true, false, peels, vertexWords, kShared)),
+ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const ComputeRasterSettings& settings)
+    : sizePx_(sizePx),
+      packed_(
+          settings.ids &&
+          (settings.search == TriangleSearch::Auto ? canPack() : settings.search == TriangleSearch::Packed)),
+      smallDepth_{&program(context, false, packed_ ? Gathers::Packed : Gathers::Depths, settings, kShared),
+                  &program(context, false, packed_ ? Gathers::Packed : Gathers::Depths, settings, kAlone)},
+      largeDepth_(program(context, true, packed_ ? Gathers::Packed : Gathers::Depths, settings, kShared)),
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
-                                         withIds ? gl::ShaderDefines{{"IDS", "1"}} : gl::ShaderDefines{})),
+                                         finishDefines(settings.ids, packed_))),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
-      depth_(gl::Format::R32F, sizePx),
       queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
-      depthBits_(int64_t{4} * sizePx.x * sizePx.y, nullptr) {
+      depthBits_(int64_t{packed_ ? 8 : 4} * sizePx.x * sizePx.y, nullptr) {
   // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
   queue_.clearUint(0);
   depthBits_.clearUint(0);
-  if (!withIds) return;
-  smallIds_ = {&program(context, false, true, peels, vertexWords, kShared),
-               &program(context, false, true, peels, vertexWords, kAlone)};
-  largeIds_ = &program(context, true, true, peels, vertexWords, kShared);
-  ids_.emplace(gl::Format::R32UI, sizePx);
+  if (settings.textures) depth_.emplace(gl::Format::R32F, sizePx);
+  if (!settings.ids) return;
+  if (settings.textures) ids_.emplace(gl::Format::R32UI, sizePx);
+  if (packed_) return;
+  smallIds_ = {&program(context, false, Gathers::Ids, settings, kShared),
+               &program(context, false, Gathers::Ids, settings, kAlone)};
+  largeIds_ = &program(context, true, Gathers::Ids, settings, kShared);
   idBits_.emplace(depthBits_.bytes(), nullptr);
   idBits_->clearUint(kNoTriangle);
 }
 
+bool ComputeRaster::canPack() {
+  return epoxy_has_gl_extension("GL_NV_shader_atomic_int64") &&
+         epoxy_has_gl_extension("GL_ARB_gpu_shader_int64");
+}
+
 int64_t ComputeRaster::bytes() const {
-  return depth_.bytes() + depthBits_.bytes() + queue_.bytes() + (ids_ ? ids_->bytes() + idBits_->bytes() : 0);
+  int64_t bytes = depthBits_.bytes() + queue_.bytes();
+  for (const auto* texture : {&depth_, &ids_})
+    if (*texture) bytes += (*texture)->bytes();
+  return bytes + (idBits_ ? idBits_->bytes() : 0);
+}
+
+void ComputeRaster::bindGathered(const GatheredBindings& bindings) const {
+  depthBits_.bindStorage(bindings.depths);
+  if (idBits_) idBits_->bindStorage(bindings.ids);
+  queue_.bindStorage(bindings.queue);
 }
 
 void ComputeRaster::dispatchSmall(const Programs& small, uint32_t triangleCount) const {
   constexpr int64_t kPerRow = kRasterRowInvocations;
-  const int lanes = sharingOf(triangleCount, depth_.sizePx()).lanes;
+  const int lanes = sharingOf(triangleCount, sizePx_).lanes;
   const int64_t invocations = int64_t{lanes} * triangleCount;
   small[lanes == kShared.lanes ? 0 : 1]->dispatch({static_cast<int>(std::min(invocations, kPerRow)),
                                                    static_cast<int>((invocations + kPerRow - 1) / kPerRow)},
@@ -93,13 +116,12 @@ template <class Small>
 void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) const {
   queue_.bindStorage(kRasterQueueBuffer);
   depthBits_.bindStorage(kRasterDepthsBuffer);
-  depth_.bindImage(kRasterDepthImage, gl::Access::Write);
   for (const gl::Program* each :
        {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_}) {
     if (!each) continue;
     each->set("anchorToClip", clip);
     each->set("near", static_cast<float>(near));
-    each->set("sizePx", depth_.sizePx());
+    each->set("sizePx", sizePx_);
   }
   const auto pass = [&](const Programs& programs, const gl::Program& large) {
     small(programs);
@@ -108,15 +130,20 @@ void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) 
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
   pass(smallDepth_, largeDepth_);
-  if (ids_) {
+  if (idBits_) {
     idBits_->bindStorage(kRasterIdsBuffer);
-    ids_->bindImage(kRasterIdsImage, gl::Access::Write);
     requeue_.dispatch({1, 1}, {1, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     pass(smallIds_, *largeIds_);
   }
-  finish_.set("sizePx", depth_.sizePx());
-  finish_.dispatch(depth_.sizePx(), {kRasterGroup, 1});
+  if (depth_) finish();
+}
+
+void ComputeRaster::finish() const {
+  depth_->bindImage(kRasterDepthImage, gl::Access::Write);
+  if (ids_) ids_->bindImage(kRasterIdsImage, gl::Access::Write);
+  finish_.set("sizePx", sizePx_);
+  finish_.dispatch(sizePx_, {kRasterGroup, 1});
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

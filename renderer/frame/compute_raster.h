@@ -40,6 +40,24 @@ struct ListedTriangles {
   const gl::Buffer& count;  ///< RasterCount (frame_bindings.h)
 };
 
+/// How ComputeRaster finds the triangle that each pixel sees.
+enum class TriangleSearch {
+  Auto,       ///< Packed where the device can (GL_NV_shader_atomic_int64)
+  TwoPasses,  ///< the depths of all triangles, then the triangle of that depth, the first of several
+  Packed      ///< at once, by atomic operations on depth and index in 64 bits; the same result
+};
+
+struct ComputeRasterSettings {
+  bool ids = false;    ///< which triangle each pixel sees as well
+  bool peels = false;  ///< draw() is given what to peel off
+  TriangleSearch search = TriangleSearch::Auto;
+  /// Above 0: for drawListed() alone, with so many floats a vertex, of which the first three are its
+  /// position.
+  int listedVertexWords = 0;
+  /// False: the caller's own pass reads what was gathered from the buffers, see bindGathered().
+  bool textures = true;
+};
+
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
 /// and, if asked, the index of the triangle that each pixel sees (0xffffffff: none). Perspective views
 /// without a far plane.
@@ -53,36 +71,44 @@ struct ListedTriangles {
 /// triangle can cover.
 class ComputeRaster {
  public:
-  /// `peels`: draw() is given what to peel off.
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels = false);
-  /// For drawListed() alone, with ids: `vertexWords` floats a vertex, of which the first three are its
-  /// position.
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, int vertexWords);
+  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const ComputeRasterSettings& settings = {});
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
   void draw(const Geometry& geometry, const glm::mat4& clip, double near, const DepthPeel& peel = {}) const;
   /// An indirect dispatch: the host need not know how many there are. One invocation a triangle.
   void drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const;
 
-  const gl::Texture& depth() const { return depth_; }  ///< R32F
-  const gl::Texture& ids() const { return *ids_; }     ///< R32UI
+  const gl::Texture& depth() const { return *depth_; }  ///< R32F
+  const gl::Texture& ids() const { return *ids_; }      ///< R32UI
+  /// For a pass in place of textures: it must leave depths and queue 0 and ids 0xffffffff, as it finds them
+  /// where there is nothing (gathered_raster.glsl).
+  struct GatheredBindings {
+    uint32_t depths, ids, queue;  ///< `ids` is not bound if depth and index are packed
+  };
+  void bindGathered(const GatheredBindings& bindings) const;
+  bool packed() const { return packed_; }
   int64_t bytes() const;
+  static bool canPack();  ///< of the current context
 
  private:
   /// Of small triangles that invocations share, and of those of one invocation each.
   using Programs = std::array<const gl::Program*, 2>;
-  ComputeRaster(gl::Context& context, glm::ivec2 sizePx, bool withIds, bool peels, int vertexWords);
-  /// Both passes; `small` dispatches one of the programs that it is given over all triangles.
+  /// All passes; `small` dispatches one of the programs that it is given over all triangles.
   template <class Small>
   void run(const glm::mat4& clip, double near, const Small& small) const;
   void dispatchSmall(const Programs& small, uint32_t triangleCount) const;
 
-  Programs smallDepth_, smallIds_ = {};
+  void finish() const;
+
+  glm::ivec2 sizePx_;
+  bool packed_;
+  /// With the indices if they are packed.
+  Programs smallDepth_;
+  Programs smallIds_ = {};
   const gl::Program &largeDepth_, &finish_, &requeue_;
   const gl::Program* largeIds_ = nullptr;
-  gl::Texture depth_;
-  std::optional<gl::Texture> ids_;
-  gl::Buffer queue_, depthBits_;
+  std::optional<gl::Texture> depth_, ids_;
+  gl::Buffer queue_, depthBits_;  ///< packed: 64 bits a pixel
   std::optional<gl::Buffer> idBits_;
 };
 

@@ -74,7 +74,8 @@ TriangleIds::TriangleIds(Frame& frame) : given_(frame.seen() ? frame.seen()->ids
   if (given_) return;
   int64_t bytes = 0;
   if (chosenRaster(frame.raster(), frame.context()) == Raster::Compute) {
-    compute_ = std::make_unique<ComputeRaster>(frame.context(), frame.sizePx(), true);
+    compute_ =
+        std::make_unique<ComputeRaster>(frame.context(), frame.sizePx(), ComputeRasterSettings{.ids = true});
     bytes = compute_->bytes();
   } else {
     gl::Texture ids(gl::Format::R32UI, frame.sizePx()), depth(gl::Format::Depth32F, frame.sizePx());

@@ -2,6 +2,7 @@
 // Lists the pixels of which one of the eight around sees another surface behind its centre: another distance than that of the
 // pixel's own plane, another orientation, none at all, or one that light cannot reach from the front where it can here. See
 // sample_raster.h. Their reach is that of sample_reach.comp.glsl; a group is a tile.
+// CENTRES: what their samples see follows at once, from the triangles behind the nine centres. See centre_samples.h.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/raster_triangle.glsl"
 #include "renderer/frame/seen_point.glsl"
@@ -9,8 +10,12 @@
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kSampleRasterCentreIdsUnit) uniform usampler2D centreIds;
 layout(binding = kSampleRasterMarksImage, r32ui) uniform writeonly uimage2D marks;
+#ifdef CENTRES
+layout(std430, binding = kRasterIdsBuffer) writeonly buffer Ids { uint ids[]; };
+#else
 layout(binding = kSampleRasterReachImage, r32f) uniform writeonly image2D outReach;
 layout(binding = kSampleRasterTilesImage, r32ui) uniform writeonly uimage2D outTiles;
+#endif
 layout(std430, binding = kSampleRasterListBuffer) buffer List {
   SampleListHeader list;
   uint listed[];  // pixels, by row
@@ -26,6 +31,9 @@ const int kSide = kGroupSide + 2, kPoints = kSide * kSide;  // of a tile with a 
 shared uint seenIds[kPoints];
 shared vec3 seenPositions[kPoints], seenNormals[kPoints];
 shared bool seenLit[kPoints];  // its front is turned to the light
+#ifdef CENTRES
+shared vec3 seenCorners[3][kPoints];  // of the triangle, in clip space
+#endif
 shared uint groupListed, firstListed;
 
 void see(int i) {
@@ -44,6 +52,9 @@ void see(int i) {
   seenNormals[i] = seen.normal;
   const vec3 p = (cameraToLight * vec4(seen.position, 1.0)).xyz;
   seenLit[i] = p.z > 0.0 && dot(mat3(cameraToLight) * seen.normal, p) < 0.0;
+#ifdef CENTRES
+  for (int corner = 0; corner < 3; ++corner) seenCorners[corner][i] = clipPosition(vertices[corner]);
+#endif
 }
 
 bool isOther(int own, int other) {
@@ -55,6 +66,34 @@ bool isOther(int own, int other) {
          abs(dot(normal, position - seenPositions[own])) > tolerance * -position.z;
 }
 
+#ifdef CENTRES
+// Triangle behind one of the nine centres around a pixel that a place in it sees. Where none of them covers the place: nothing if one of the
+// centres sees nothing, otherwise what the pixel's own centre sees.
+uint seenFrom(int own, vec2 place) {
+  float nearest = 0.0;
+  uint id = kNothing;
+  bool covered = false, nothing = false;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      const int other = own + y * kSide + x;
+      const uint there = seenIds[other];
+      if (there == kOffPicture) continue;
+      if (there == kNothing) {
+        nothing = true;
+        continue;
+      }
+      float depth;
+      if (!covers(seenCorners[0][other], seenCorners[1][other], seenCorners[2][other], place, depth)) continue;
+      // As in the rasteriser.
+      if (depth > nearest || (depth == nearest && there < id)) {
+        nearest = depth;
+        id = there;
+      }
+      covered = true;
+    }
+  return covered || nothing ? id : seenIds[own];
+}
+#else
 // Least near / distance of a triangle at the pixel's samples; 0: it does not cover them all.
 float reachOf(uint id, ivec2 pixel) {
   if (id == kNothing) return 0.0;
@@ -68,6 +107,7 @@ float reachOf(uint id, ivec2 pixel) {
   }
   return least;
 }
+#endif
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), lane = ivec2(gl_LocalInvocationID.xy);
@@ -83,11 +123,20 @@ void main() {
   barrier();
   if (gl_LocalInvocationIndex == 0u) {
     firstListed = groupListed > 0u ? atomicAdd(list.pixels, groupListed) : 0u;
+#ifndef CENTRES
     imageStore(outTiles, ivec2(gl_WorkGroupID.xy), uvec4(groupListed));
+#endif
   }
   barrier();
+#ifdef CENTRES
+  if (seenIds[own] != kOffPicture) imageStore(marks, pixel, uvec4(lists ? 1u : 0u));
+  if (!lists) return;
+  for (int i = 0; i < SAMPLES; ++i)
+    ids[(pixel.y * sizePx.x + pixel.x) * SAMPLES + i] = seenFrom(own, vec2(pixel) + samplePlaces[i]);
+#else
   if (!lists) return;
   imageStore(marks, pixel, uvec4(1u));
   imageStore(outReach, pixel, vec4(reachOf(seenIds[own], pixel)));
+#endif
   listed[firstListed + slot] = uint(pixel.y * sizePx.x + pixel.x);
 }

@@ -139,13 +139,7 @@ void SampleRaster::listByTriangles(Frame& frame) const {
 
 void SampleRaster::listByNeighbours(Frame& frame) const {
   const Neighbours& with = *neighbours_;
-  const glm::dmat4& toCamera = frame.anchorToCamera();
-  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
-  with.mark.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-  with.mark.set("anchorToCamera", glm::mat4(toCamera));
-  with.mark.set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
-  with.mark.set("tolerance", static_cast<float>(with.surface.tolerance));
-  with.mark.set("cosine", static_cast<float>(std::cos(glm::radians(with.surface.angleDeg))));
+  setMarkUniforms(with.mark, frame, places_, with.surface);
   with.tiles.bindImage(kSampleRasterTilesImage, gl::Access::Write);
   with.mark.dispatch(frame.sizePx());
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -162,6 +156,22 @@ void SampleRaster::listByNeighbours(Frame& frame) const {
   ids_.bindStorage(kRasterIdsBuffer);
   with.kept.bindStorage(kSampleRasterKeptTrianglesBuffer);
   overTriangles(frame, smallDepth_, largeDepth_);
+}
+
+void setMarkUniforms(const gl::Program& program, const Frame& frame, const std::vector<glm::vec2>& places,
+                     const SameSurface& surface) {
+  const glm::dmat4& toCamera = frame.anchorToCamera();
+  const glm::dmat4 toLight = frame.scene().lights.at(0).toLightSpace(frame.gpuScene().anchor());
+  program.set("anchorToClip", anchorToClip(frame));
+  program.set("near", static_cast<float>(nearPlane(frame)));
+  program.set("sizePx", frame.sizePx());
+  for (size_t i = 0; i < places.size(); ++i)
+    program.set(("samplePlaces[" + std::to_string(i) + "]").c_str(), places[i]);
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("anchorToCamera", glm::mat4(toCamera));
+  program.set("cameraToLight", glm::mat4(toLight * glm::inverse(toCamera)));
+  program.set("tolerance", static_cast<float>(surface.tolerance));
+  program.set("cosine", static_cast<float>(std::cos(glm::radians(surface.angleDeg))));
 }
 
 void dispatchOverSampleList(const gl::Program& program, const gl::Buffer& list) {
@@ -182,9 +192,8 @@ void SampleRaster::draw(Frame& frame, const std::string& pass) const {
   const gl::Texture& centreIds = frame.get<TriangleIds>().texture();
   const auto scope = frame.passes().open(pass);
   const Geometry geometry = frame.geometry();
-  for (const gl::Program* each :
-       {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_, &finish_,
-        neighbours_ ? &neighbours_->mark : nullptr, neighbours_ ? &neighbours_->keep : nullptr}) {
+  for (const gl::Program* each : {&clear_, &reachOf_, &smallDepth_, &largeDepth_, &smallIds_, &largeIds_,
+                                  &finish_, neighbours_ ? &neighbours_->keep : nullptr}) {
     if (!each) continue;
     each->set("anchorToClip", anchorToClip(frame));
     each->set("near", static_cast<float>(nearPlane(frame)));

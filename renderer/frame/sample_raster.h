@@ -17,11 +17,14 @@ std::vector<glm::vec2> standardSamplePlaces(int samples);
 
 /// Pixels whose samples are looked at.
 enum class SampleSearch {
-  Triangles,  ///< those that a triangle other than the one behind the centre may be seen in: all that matter
-  Neighbours  ///< those beside a pixel whose centre sees another surface
+  Triangles,   ///< those that a triangle other than the one behind the centre may be seen in: all that matter
+  Neighbours,  ///< those beside a pixel whose centre sees another surface
+  Centres      ///< the same, of which samples see what the centres around them see: CentreSamples
 };
-constexpr EnumNames<SampleSearch, 2> enumNames(SampleSearch) {
-  return {{{{SampleSearch::Triangles, "triangles"}, {SampleSearch::Neighbours, "neighbours"}}}};
+constexpr EnumNames<SampleSearch, 3> enumNames(SampleSearch) {
+  return {{{{SampleSearch::Triangles, "triangles"},
+            {SampleSearch::Neighbours, "neighbours"},
+            {SampleSearch::Centres, "centres"}}}};
 }
 
 /// What is one surface: points near each other's plane that face much the same way.
@@ -47,7 +50,7 @@ struct SameSurface {
 /// two columns or rows from the sample's own pixel. What is thinner may be missed or found in part.
 class SampleRaster {
  public:
-  /// `surface`: for Neighbours.
+  /// `search`: not Centres. `surface`: for Neighbours.
   SampleRaster(Frame& frame, std::vector<glm::vec2> places, SampleSearch search = SampleSearch::Triangles,
                const SameSurface& surface = {});
 
@@ -86,6 +89,10 @@ class SampleRaster {
   gl::Texture reach_, marks_;
   gl::Buffer queue_, list_, depths_, ids_;
 };
+
+/// Uniforms of sample_marks.comp.glsl.
+void setMarkUniforms(const gl::Program& program, const Frame& frame, const std::vector<glm::vec2>& places,
+                     const SameSurface& surface);
 
 /// Runs `program`, which includes sample_list.glsl, over the pixels in such a list; binds it.
 void dispatchOverSampleList(const gl::Program& program, const gl::Buffer& list);

@@ -49,7 +49,8 @@ ShadowMapSettings ShadowMapSettings::alone() const {
 ShadowRaster::ShadowRaster(gl::Context& context, int resolution, Raster raster, Extra extra) {
   const bool withIds = extra == Extra::Ids, peels = extra == Extra::Peels;
   if (chosenRaster(raster, context) == Raster::Compute) {
-    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution), withIds, peels);
+    compute_ = std::make_unique<ComputeRaster>(context, glm::ivec2(resolution),
+                                               ComputeRasterSettings{.ids = withIds, .peels = peels});
     return;
   }
   gl::Texture depth(gl::Format::Depth32F, glm::ivec2(resolution));

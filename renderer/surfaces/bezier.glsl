@@ -6,6 +6,9 @@
 // The includer defines, before it includes this file, the control points of the patch in the order of
 // patch_set.h, homogeneous (w x, w y, w z, w), relative to an anchor near the geometry:
 //   vec4 bezierPoint(int index);
+// NVIDIA's compiler regroups products of values that a function returns although they are `precise` there, so that Bernstein
+// polynomials no longer mirror each other; it does not with this. Other compilers ignore it.
+#pragma optionNV(fastmath off)
 #include "renderer/surfaces/bezier_tables.h"
 
 const float kBezierBinomials[55] = float[55](LIMEN_BINOMIALS);
@@ -58,44 +61,53 @@ void differences(int n, inout vec4 points[10]) {
 
 // Derivatives up to `order`, 0 to 2.
 BezierJet bezierRectangle(int degreeU, int degreeV, vec4 at, int order) {
-  float basisU[3][10], basisV[3][10];
-  for (int k = 0; k <= order; ++k) {
-    bernsteinBasis(max(degreeU - k, 0), at.x, at.z, basisU[k]);
-    bernsteinBasis(max(degreeV - k, 0), at.y, at.w, basisV[k]);
+  // Of the degrees less 0, 1 and 2. Arrays of their own: NVIDIA's compiler refuses an array's element at a variable place as
+  // an out argument.
+  float basisU0[10], basisU1[10], basisU2[10], basisV0[10], basisV1[10], basisV2[10];
+  bernsteinBasis(degreeU, at.x, at.z, basisU0);
+  bernsteinBasis(degreeV, at.y, at.w, basisV0);
+  if (order > 0) {
+    bernsteinBasis(degreeU - 1, at.x, at.z, basisU1);
+    bernsteinBasis(degreeV - 1, at.y, at.w, basisV1);
+  }
+  if (order > 1) {
+    bernsteinBasis(max(degreeU - 2, 0), at.x, at.z, basisU2);
+    bernsteinBasis(max(degreeV - 2, 0), at.y, at.w, basisV2);
   }
   const float m = float(degreeU), n = float(degreeV);
   vec4 row[10], p[10], u[10], uu[10];
   for (int j = 0; j <= degreeV; ++j) {
     for (int i = 0; i <= degreeU; ++i) row[i] = bezierPoint(i + (degreeU + 1) * j);
-    p[j] = bezierSum(degreeU, basisU[0], row);
+    p[j] = bezierSum(degreeU, basisU0, row);
     if (order == 0) continue;
     differences(degreeU, row);
-    u[j] = m * bezierSum(degreeU - 1, basisU[1], row);
+    u[j] = m * bezierSum(degreeU - 1, basisU1, row);
     uu[j] = vec4(0.0);
     if (order == 1 || degreeU == 1) continue;
     differences(degreeU - 1, row);
-    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU[2], row);
+    uu[j] = m * (m - 1.0) * bezierSum(degreeU - 2, basisU2, row);
   }
-  BezierJet jet = BezierJet(bezierSum(degreeV, basisV[0], p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  BezierJet jet = BezierJet(bezierSum(degreeV, basisV0, p), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
   if (order == 0) return jet;
-  jet.u = bezierSum(degreeV, basisV[0], u);
+  jet.u = bezierSum(degreeV, basisV0, u);
   differences(degreeV, p);
-  jet.v = n * bezierSum(degreeV - 1, basisV[1], p);
+  jet.v = n * bezierSum(degreeV - 1, basisV1, p);
   if (order == 1) return jet;
-  jet.uu = bezierSum(degreeV, basisV[0], uu);
+  jet.uu = bezierSum(degreeV, basisV0, uu);
   differences(degreeV, u);
-  jet.uv = n * bezierSum(degreeV - 1, basisV[1], u);
+  jet.uv = n * bezierSum(degreeV - 1, basisV1, u);
   if (degreeV == 1) return jet;
   differences(degreeV - 1, p);
-  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV[2], p);
+  jet.vv = n * (n - 1.0) * bezierSum(degreeV - 2, basisV2, p);
   return jet;
 }
 
 // The four Bernstein polynomials of degree 3, in the bits of bernsteinBasis().
 vec4 cubicBasis(float t, float s) {
   precise float tt = t * t, ss = s * s;
-  precise vec4 basis = vec4(ss * s, 3.0 * (t * ss), 3.0 * (tt * s), tt * t);
-  return basis;
+  precise float tss = t * ss, tts = tt * s;
+  precise float b0 = ss * s, b1 = 3.0 * tss, b2 = 3.0 * tts, b3 = tt * t;
+  return vec4(b0, b1, b2, b3);
 }
 vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
   precise vec4 outer = c0 * basis.x + c3 * basis.w;
@@ -105,8 +117,9 @@ vec4 cubicSum(vec4 basis, vec4 c0, vec4 c1, vec4 c2, vec4 c3) {
 }
 // The three of degree 2 and their sum.
 vec3 quadraticBasis(float t, float s) {
-  precise vec3 basis = vec3(s * s, 2.0 * (t * s), t * t);
-  return basis;
+  precise float ts = t * s;
+  precise float b0 = s * s, b1 = 2.0 * ts, b2 = t * t;
+  return vec3(b0, b1, b2);
 }
 vec4 quadraticSum(vec3 basis, vec4 c0, vec4 c1, vec4 c2) {
   precise vec4 outer = c0 * basis.x + c2 * basis.z;
@@ -149,9 +162,9 @@ void bicubicRow(int j, vec4 bu, vec3 du, out BicubicPoint p, out BicubicPoint u)
   u = 3.0 * quadraticSum(du, c1 - c0, c2 - c1, c3 - c2);
 }
 BicubicColumn bicubicColumn(float u, float rest) {
-  const vec4 bu = cubicBasis(u, rest);
-  const vec3 du = quadraticBasis(u, rest);
-  BicubicColumn c;
+  precise const vec4 bu = cubicBasis(u, rest);
+  precise const vec3 du = quadraticBasis(u, rest);
+  precise BicubicColumn c;
   bicubicRow(0, bu, du, c.p0, c.u0);
   bicubicRow(1, bu, du, c.p1, c.u1);
   bicubicRow(2, bu, du, c.p2, c.u2);
@@ -159,10 +172,12 @@ BicubicColumn bicubicColumn(float u, float rest) {
   return c;
 }
 BezierJet bicubicAt(BicubicColumn c, float v, float rest) {
-  const vec4 bv = cubicBasis(v, rest);
+  precise const vec4 bv = cubicBasis(v, rest);
+  precise const vec3 dv = quadraticBasis(v, rest);
+  precise const BicubicPoint value = cubicSum(bv, c.p0, c.p1, c.p2, c.p3);
   return BezierJet(
-      homogeneousPoint(cubicSum(bv, c.p0, c.p1, c.p2, c.p3)), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
-      homogeneousDerivative(3.0 * quadraticSum(quadraticBasis(v, rest), c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
+      homogeneousPoint(value), homogeneousDerivative(cubicSum(bv, c.u0, c.u1, c.u2, c.u3)),
+      homogeneousDerivative(3.0 * quadraticSum(dv, c.p1 - c.p0, c.p2 - c.p1, c.p3 - c.p2)),
       vec4(0.0), vec4(0.0), vec4(0.0));
 }
 

@@ -2,7 +2,7 @@
 #include "renderer/surfaces/loop_point.h"
 
 #include "renderer/surfaces/bezier.h"
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/sharpness_rules.h"
 
 namespace limen::surfaces {

@@ -5,35 +5,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "renderer/surfaces/pattern_builder.h"
+
 namespace limen::surfaces {
 namespace {
 
 using glm::dvec2;
-using Polyline = std::vector<uint32_t>;
-
-dvec2 domainCorner(Domain domain, int corner) {
-  if (domain == Domain::Triangle) return corner == 0 ? dvec2(1, 0) : corner == 1 ? dvec2(0, 1) : dvec2(0);
-  return {corner == 1 || corner == 2 ? 1.0 : 0.0, corner >= 2 ? 1.0 : 0.0};
-}
-
-uint32_t addPoint(PatternMesh& mesh, dvec2 point) {
-  mesh.points.push_back(point);
-  return static_cast<uint32_t>(mesh.points.size() - 1);
-}
-
-/// Triangles between two polylines that run the same way, `inner` to the left of `outer`.
-void stitch(PatternMesh& mesh, const Polyline& outer, const Polyline& inner) {
-  const int n = static_cast<int>(outer.size()) - 1, m = static_cast<int>(inner.size()) - 1;
-  for (int step = 0, a = 0; step < n + m; ++step) {
-    const int next = patternInnerSteps(step + 1, m, n), b = step - a;
-    const auto at = [](const Polyline& line, int i) { return line[static_cast<size_t>(i)]; };
-    if (next > a)
-      mesh.triangles.emplace_back(at(inner, a), at(outer, b), at(inner, a + 1));
-    else
-      mesh.triangles.emplace_back(at(outer, b), at(outer, b + 1), at(inner, a));
-    a = next;
-  }
-}
 
 /// A closed ring: of each side its vertices, both corners included.
 using Ring = std::vector<Polyline>;

@@ -93,8 +93,9 @@ std::optional<PatchHit> PatchTracer::nearest(const Ray& ray, double tolerance, R
       const Patch& searched = searched_[patch];
       const bool converted = searched.domain != set_.patches[patch].domain;
       const PatchOnRay local = onRay(converted ? rectangles_ : set_, searched, ray);
-      const std::vector<RayRoot> roots = finder_ == RootFinder::Hulls
-                                             ? hullRoots(local, tolerance, counts)
+      const std::vector<RayRoot> roots = finder_ == RootFinder::Hulls ? hullRoots(local, tolerance, counts)
+                                         : finder_ == RootFinder::Intervals
+                                             ? intervalRoots(local, tolerance, counts)
                                              : clippedRoots(local, tolerance, {}, counts);
       if (roots.empty() || (best && roots[0].t >= best->t)) continue;
       best = {roots[0].t, patch, roots[0].at};

@@ -8,9 +8,11 @@
 
 namespace limen::surfaces {
 
-enum class RootFinder { Clipping, Hulls };
-constexpr EnumNames<RootFinder, 2> enumNames(RootFinder) {
-  return {{{{RootFinder::Clipping, "bezier_clipping"}, {RootFinder::Hulls, "hull_subdivision"}}}};
+enum class RootFinder { Clipping, Hulls, Intervals };
+constexpr EnumNames<RootFinder, 3> enumNames(RootFinder) {
+  return {{{{RootFinder::Clipping, "bezier_clipping"},
+            {RootFinder::Hulls, "hull_subdivision"},
+            {RootFinder::Intervals, "interval_arithmetic"}}}};
 }
 
 struct PatchHit {

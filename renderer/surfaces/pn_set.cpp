@@ -46,9 +46,14 @@ std::array<glm::dvec4, kCount> homogeneous(const std::array<glm::dvec3, kCount>&
 
 }  // namespace
 
+std::vector<PnBase> pnBases(const BaseMesh& mesh, bool creases) {
+  std::vector<PnBase> out = bases(mesh);
+  if (creases) tagCreases(mesh, out);
+  return out;
+}
+
 PatchSet pnSet(const BaseMesh& mesh, const PnSetSettings& settings) {
-  std::vector<PnBase> triangles = bases(mesh);
-  if (settings.creases) tagCreases(mesh, triangles);
+  const std::vector<PnBase> triangles = pnBases(mesh, settings.creases);
   PatchSet set;
   for (const PnBase& base : triangles) {
     const PnTriangle patch = pnTriangle(base, settings.patch);

@@ -13,6 +13,9 @@ struct PnSetSettings {
   bool creases = true;
 };
 
+/// What pnTriangle() takes of each triangle of a mesh with merged positions and corner normals.
+std::vector<PnBase> pnBases(const BaseMesh& mesh, bool creases = true);
+
 /// One cubic triangle with a quadratic normal field for each triangle of a mesh with merged positions and
 /// corner normals. Neighbours are found. (Schwarz 2009, section 6.1.3; SC-07 to SC-10)
 PatchSet pnSet(const BaseMesh& mesh, const PnSetSettings& settings = {});

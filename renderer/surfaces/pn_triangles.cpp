@@ -74,6 +74,10 @@ PnTriangle pnTriangle(const PnBase& base, const PnSettings& settings) {
     const size_t t = (s + 1) % 3;
     first[s] = tangentPoint(p[s], p[t], n[s], base.creases[s][0]);
     second[s] = tangentPoint(p[t], p[s], n[t], base.creases[s][1]);
+    if (settings.tension != 0.0) {
+      first[s] = glm::mix(first[s], p[s], settings.tension);
+      second[s] = glm::mix(second[s], p[t], settings.tension);
+    }
     middle[s] = pnMiddleNormal(p[s], p[t], n[s], n[t], settings);
   }
   const glm::dvec3 centre =

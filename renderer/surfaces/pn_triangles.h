@@ -29,6 +29,8 @@ struct PnSettings {
   /// h / 2 in place of h for Farin and CorrectedFarin: a flat triangle then has the same normal everywhere,
   /// where the printed formulae weight the middle of its edges 2.5 and 3 times as much as its corners.
   bool halfH = false;
+  /// Shortens tangents: tangent points lie at (1 - tension) of their way from the corner. 0: PN triangles.
+  double tension = 0.0;
 };
 
 struct PnTriangle {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/surfaces/qas_patches.h"
 
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/patch_builder.h"
 

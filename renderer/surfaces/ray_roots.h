@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All intersections of a ray with a patch, by two methods that have nothing in common but the ray's
-// coordinates: Bézier clipping (Nishita et al. 1990; SC-33), which is fast, and subdivision by convex hulls,
-// which misses none.
+// All intersections of a ray with a patch, by three methods that have nothing in common but the ray's
+// coordinates: Bézier clipping (Nishita et al. 1990; SC-33), which is fast, subdivision by convex hulls, and
+// interval arithmetic (SC-28), which is proven to miss none.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,7 @@ struct RootCounts {
   int64_t splits = 0;        ///< halvings because clipping did not get on
   int64_t duplicates = 0;    ///< roots found more than once
   int64_t falseReports = 0;  ///< parts that shrank to a point that is not a root
+  int64_t unproven = 0;      ///< roots of interval arithmetic: within the tolerance, but they need not cross
 };
 
 /// Roots with t > 0, nearest first, of a patch whose weights are positive. Every place where the surface
@@ -44,6 +45,11 @@ struct RootCounts {
 /// if the hull of their control points misses it. A surface that touches the ray without crossing it may be
 /// reported several times.
 std::vector<RayRoot> hullRoots(const PatchOnRay& patch, double tolerance, RootCounts* counts = nullptr);
+
+/// The same by interval arithmetic. A box of the domain is left out only if it is proven to hold no root, all
+/// rounding included; a root is proven to exist, or is one of a surface that touches the ray or nearly so,
+/// within `tolerance`.
+std::vector<RayRoot> intervalRoots(const PatchOnRay& patch, double tolerance, RootCounts* counts = nullptr);
 
 struct ClipSettings {
   double width = 1e-10;  ///< of a part of the domain that counts as a point

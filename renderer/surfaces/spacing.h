@@ -8,10 +8,12 @@
 #ifdef __cplusplus
 #define LIMEN_SPACING inline
 #define LIMEN_SPACING_REAL double
+#define LIMEN_SPACING_EXACT double
 namespace limen::surfaces {
 #else
 #define LIMEN_SPACING
 #define LIMEN_SPACING_REAL float
+#define LIMEN_SPACING_EXACT precise float  // the same bits wherever it is compiled
 #endif
 
 const int kSpacingInteger = 0;         // rounded up, equal segments
@@ -48,19 +50,20 @@ LIMEN_SPACING LIMEN_SPACING_REAL spacedPlace(int spacing, int units, int i, int 
   if (!fractional || n <= 2) return LIMEN_SPACING_REAL(i) / LIMEN_SPACING_REAL(n);
   if (2 * i == n) return LIMEN_SPACING_REAL(0.5);
   const int at = 2 * i < n ? i : n - i;  // in the lower half
-  const LIMEN_SPACING_REAL factor = LIMEN_SPACING_REAL(units) / LIMEN_SPACING_REAL(kSegmentUnit);
-  LIMEN_SPACING_REAL place;
+  LIMEN_SPACING_EXACT factor = LIMEN_SPACING_REAL(units) / LIMEN_SPACING_REAL(kSegmentUnit);
+  LIMEN_SPACING_EXACT place;
   if (spacing == kSpacingMoreton) {
     place = LIMEN_SPACING_REAL(at) / factor;
   } else {
     // Between the divisions into n - 2 and n equal parts, in the middle of which two are new.
-    const LIMEN_SPACING_REAL share = (factor - LIMEN_SPACING_REAL(n - 2)) / LIMEN_SPACING_REAL(2);
-    const LIMEN_SPACING_REAL added = share / LIMEN_SPACING_REAL(n);
-    const LIMEN_SPACING_REAL old = (LIMEN_SPACING_REAL(1) - share) / LIMEN_SPACING_REAL(n - 2) + added;
+    LIMEN_SPACING_EXACT share = (factor - LIMEN_SPACING_REAL(n - 2)) / LIMEN_SPACING_REAL(2);
+    LIMEN_SPACING_EXACT added = share / LIMEN_SPACING_REAL(n);
+    LIMEN_SPACING_EXACT old = (LIMEN_SPACING_REAL(1) - share) / LIMEN_SPACING_REAL(n - 2) + added;
     const int olds = patternLess(at, (n - 1) / 2 - (n % 2 == 1 ? 1 : 0));
     place = LIMEN_SPACING_REAL(olds) * old + LIMEN_SPACING_REAL(at - olds) * added;
   }
-  return 2 * i < n ? place : LIMEN_SPACING_REAL(1) - place;
+  LIMEN_SPACING_EXACT mirrored = LIMEN_SPACING_REAL(1) - place;
+  return 2 * i < n ? place : mirrored;
 }
 
 // How far vertices that the coarser level lacks have moved to their own place: 0 where half as many segments

@@ -28,9 +28,10 @@ enum class HardCase {
   NearlyStraight,
   OpposedNormals,
   PartlyShared,
-  OneTo64
+  OneTo64,
+  Drum
 };
-constexpr EnumNames<HardCase, 10> enumNames(HardCase) {
+constexpr EnumNames<HardCase, 11> enumNames(HardCase) {
   return {{{{HardCase::Poles, "poles"},
             {HardCase::Loop, "loop"},
             {HardCase::SCurve, "s_curve"},
@@ -40,7 +41,8 @@ constexpr EnumNames<HardCase, 10> enumNames(HardCase) {
             {HardCase::NearlyStraight, "nearly_straight"},
             {HardCase::OpposedNormals, "opposed_normals"},
             {HardCase::PartlyShared, "partly_shared"},
-            {HardCase::OneTo64, "one_to_64"}}}};
+            {HardCase::OneTo64, "one_to_64"},
+            {HardCase::Drum, "drum"}}}};
 }
 
 struct HardCaseSettings {
@@ -48,18 +50,19 @@ struct HardCaseSettings {
   int tessellation = 16;
   static const SettingsTable<HardCaseSettings>& table() {
     using S = HardCaseSettings;
-    static const SettingsTable<S> kTable = {{&S::which, "case",
-                                             "Sides collapsed to poles; a common boundary with a loop; an "
-                                             "S-shaped one in space; weights from 1e-6 to "
-                                             "1e6; control points at infinity; a negative weight; one "
-                                             "direction all but straight; opposed normals at "
-                                             "the ends of edges; sides of which neighbours share halves; a "
-                                             "flat patch beside one that takes 64 segments"},
-                                            {&S::tessellation,
-                                             "tessellation",
-                                             {1, 64},
-                                             "segments",
-                                             "Segments along each side of a patch in the mesh"}};
+    static const SettingsTable<S> kTable = {
+        {&S::which, "case",
+         "Sides collapsed to poles; a common boundary with a loop; an "
+         "S-shaped one in space; weights from 1e-6 to "
+         "1e6; control points at infinity; a negative weight; one "
+         "direction all but straight; opposed normals at "
+         "the ends of edges; sides of which neighbours share halves; a "
+         "flat patch beside one that takes 64 segments; a closed drum whose lids and side part at the rims"},
+        {&S::tessellation,
+         "tessellation",
+         {1, 64},
+         "segments",
+         "Segments along each side of a patch in the mesh"}};
     return kTable;
   }
 };
@@ -185,6 +188,33 @@ PatchSet oneTo64() {
   return set;
 }
 
+/// A closed drum as PN triangles: straight sides of the lids meet the side's arcs, and between the two lies a
+/// gap in the plane of the lid.
+PatchSet drum() {
+  constexpr uint32_t kSegments = 12;
+  surfaces::BaseMesh mesh;
+  std::vector<glm::dvec3> out;
+  for (uint32_t i = 0; i < kSegments; ++i) {
+    const double turn = 2.0 * M_PI * i / kSegments;
+    out.emplace_back(std::sin(turn), 0.0, std::cos(turn));
+    for (const double y : {0.2, 0.9}) mesh.positions.push_back(0.6 * out.back() + glm::dvec3(0.0, y, 0.0));
+  }
+  const uint32_t middle = 2 * kSegments;
+  mesh.positions.insert(mesh.positions.end(), {{0.0, 0.2, 0.0}, {0.0, 0.9, 0.0}});
+  const glm::dvec3 up(0.0, 1.0, 0.0);
+  for (uint32_t i = 0; i < kSegments; ++i) {
+    const uint32_t k = (i + 1) % kSegments, low = 2 * i, nextLow = 2 * k;
+    const glm::dvec3 &own = out[i], &next = out[k];
+    mesh.triangles.insert(mesh.triangles.end(), {{low, nextLow, nextLow + 1},
+                                                 {low, nextLow + 1, low + 1},
+                                                 {middle + 1, low + 1, nextLow + 1},
+                                                 {middle, nextLow, low}});
+    mesh.cornerNormals.insert(mesh.cornerNormals.end(),
+                              {{own, next, next}, {own, next, own}, {up, up, up}, {-up, -up, -up}});
+  }
+  return pnSet(mesh, {{}, false});
+}
+
 PatchSet hardCase(HardCase which) {
   switch (which) {
     case HardCase::Poles: {
@@ -209,6 +239,8 @@ PatchSet hardCase(HardCase which) {
       return partlyShared();
     case HardCase::OneTo64:
       return oneTo64();
+    case HardCase::Drum:
+      return drum();
   }
   return {};
 }

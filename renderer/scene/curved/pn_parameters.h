@@ -49,6 +49,25 @@ struct PhongForm {
   static const SettingsTable<PhongForm>& table();
 };
 
+struct SmoothedForm {
+  static constexpr const char *kKind = "smoothed", *kSummary = "smoothed N-patches by the side-vertex method";
+  int pieces = 2;
+  static const SettingsTable<SmoothedForm>& table();
+};
+
+struct Png1Form {
+  static constexpr const char *kKind = "png1",
+                              *kSummary = "PN triangles moved into common tangent planes along their sides";
+  int pieces = 2;
+  static const SettingsTable<Png1Form>& table();
+};
+
+struct TaggedPnForm {
+  static constexpr const char *kKind = "tagged_pn", *kSummary = "PN triangles with scalar tags at creases";
+  double angleDeg = 40.0, sharpness = 0.5, bias = 0.0, tension = 0.0;
+  static const SettingsTable<TaggedPnForm>& table();
+};
+
 // What happens at edges with a large angle between their triangles.
 struct SmoothEdges {
   static constexpr const char *kKind = "none", *kSummary = "all edges are smooth";
@@ -73,8 +92,8 @@ struct CreasedPnForm {
 };
 
 /// How triangles become curved; for meshes without and with creases.
-using CurvedForm = std::variant<PnForm, PhongForm>;
-using CreasedForm = std::variant<CreasedPnForm, PhongForm>;
+using CurvedForm = std::variant<PnForm, PhongForm, SmoothedForm, Png1Form>;
+using CreasedForm = std::variant<CreasedPnForm, PhongForm, SmoothedForm, Png1Form, TaggedPnForm>;
 
 /// A scene's parameter for it.
 template <class S, class Form>

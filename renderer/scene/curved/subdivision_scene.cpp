@@ -5,16 +5,18 @@
 #include "renderer/scene/stage.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/catmull_clark.h"
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/patch_builder.h"
 #include "renderer/surfaces/qas_patches.h"
 
 namespace limen::scene {
 namespace {
 
-enum class Approximation { Acc, Qas };
-constexpr EnumNames<Approximation, 2> enumNames(Approximation) {
-  return {{{{Approximation::Acc, "acc"}, {Approximation::Qas, "qas"}}}};
+enum class Approximation { Acc, AccTangents, Qas };
+constexpr EnumNames<Approximation, 3> enumNames(Approximation) {
+  return {{{{Approximation::Acc, "acc"},
+            {Approximation::AccTangents, "acc_tangents"},
+            {Approximation::Qas, "qas"}}}};
 }
 
 struct SubdivisionSettings {
@@ -24,7 +26,8 @@ struct SubdivisionSettings {
     using S = SubdivisionSettings;
     static const SettingsTable<S> kTable = {
         {&S::approximation, "approximation",
-         "Bicubic patches over the quads of Catmull-Clark's surface (Loop and Schaefer 2008), or quadratic "
+         "Bicubic patches over the quads of Catmull-Clark's surface, shaded with their own normals or "
+         "with those of tangent patches (Loop and Schaefer 2008), or quadratic "
          "triangles "
          "through points of Loop's (Boubekeur and Schlick 2007)"},
         {&S::steps, "steps", {0, 4}, "steps", "Steps of subdivision before each face becomes a patch"},
@@ -52,9 +55,12 @@ surfaces::PolygonMesh triangulated(surfaces::PolygonMesh mesh) {
 Scene buildSubdivision(const SubdivisionSettings& settings) {
   surfaces::PolygonMesh cage = doubleTorusCage();
   for (glm::dvec3& p : cage.points) p = {p.x, -p.z, p.y};
-  const bool acc = settings.approximation == Approximation::Acc;
+  const bool acc = settings.approximation != Approximation::Qas;
+  const auto normals = settings.approximation == Approximation::AccTangents
+                           ? surfaces::AccNormals::TangentPatches
+                           : surfaces::AccNormals::Geometry;
   surfaces::PatchSet set =
-      acc ? surfaces::accPatches(surfaces::catmullClark(std::move(cage), settings.steps))
+      acc ? surfaces::accPatches(surfaces::catmullClark(std::move(cage), settings.steps), normals)
           : surfaces::qasPatches(surfaces::loop(triangulated(std::move(cage)), settings.steps));
   const Mesh shape = patchMesh(set, settings.tessellation);
   Bounds bounds;

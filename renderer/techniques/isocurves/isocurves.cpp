@@ -12,8 +12,8 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/isocurves/isocurves_bindings.h"
+#include "renderer/techniques/ray_casting/hit_counters.h"
 #include "renderer/techniques/ray_casting/ray_casting_bindings.h"
-#include "renderer/techniques/ray_casting/view_rays.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
@@ -44,7 +44,7 @@ struct IsocurveSettings {
          "steps",
          "Steps after which differences are computed anew",
          "Schwarz 2009, section 7.6.2"},
-        {&S::check, "check", "Compare all pixels with exact ray casting when counting"},
+        {&S::check, "check", "Compare all pixels with interval arithmetic when counting"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -120,31 +120,14 @@ class Isocurves : public Technique {
     double points = 0.0, covered = 0.0;
     for (const uint32_t one : counts.readUint()) points += one, covered += one > 0;
     std::vector<Counter> out = {{"points_per_px", points / std::max(covered, 1.0)}};
-    if (!settings_.check) return out;
-    const Image normals = normals_->read();
-    std::vector<double> distances;
-    for (size_t i = 0; i < normals.pixels(); ++i) distances.push_back(normals.data[4 * i + 3]);
-    const surfaces::SurfaceView view = viewOf(frame);
-    constexpr double kExactPx = 1e-4;
-    const HitErrors errors = compareHits(
-        exactView(frame.scene().surfaces, surfaces::RootFinder::Clipping, view, frame.sizePx(), kExactPx),
-        view, distances);
-    out.insert(out.end(), {{"surface_px", double(errors.exactHits)},
-                           {"missed_px", double(errors.missed)},
-                           {"hole_px", double(errors.holes)},
-                           {"false_px", double(errors.falseHits)},
-                           {"wrong_place_px", double(errors.wrongPlace)}});
+    if (settings_.check) std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
     return out;
   }
 
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
-    return {{"points_per_px", "Points on curves, mean of the pixels with any", "points/px", lower},
-            {"surface_px", "Pixels that see the surface", "px", Direction::Neither},
-            {"missed_px", "Pixels that see the surface and were left empty", "px", lower},
-            {"hole_px", "Missed pixels whose neighbours all see the surface", "px", lower},
-            {"false_px", "Pixels filled that do not see the surface", "px", lower},
-            {"wrong_place_px", "Pixels filled with another place of the surface", "px", lower}};
+    return withHitQuantities(
+        {{"points_per_px", "Points on curves, mean of the pixels with any", "points/px", lower}});
   }
 
  private:

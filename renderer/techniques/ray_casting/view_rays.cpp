@@ -47,6 +47,7 @@ ExactView exactView(const surfaces::PatchSet& set, surfaces::RootFinder finder,
   for (const surfaces::RootCounts& one : counts) {
     out.counts.steps += one.steps, out.counts.splits += one.splits;
     out.counts.duplicates += one.duplicates, out.counts.falseReports += one.falseReports;
+    out.counts.unproven += one.unproven;
   }
   return out;
 }

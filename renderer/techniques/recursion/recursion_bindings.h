@@ -40,6 +40,10 @@ const uint kSplitCountersBuffer = 3u;
 const uint kQueueBuffer = 4u;
 const uint kNextQueueBuffer = 5u;
 const uint kFinishedBuffer = 6u;
+// Geometry shaders: texture units, and a bit of a part's patchNumber.
+const uint kPartPointsUnit = 0u;
+const uint kPartPatchesUnit = 1u;
+const uint kPartIsFinished = 0x80000000u;
 // Dicing; vertices and indices are bound as for tessellation.
 const uint kDiceCountersBuffer = 5u;
 

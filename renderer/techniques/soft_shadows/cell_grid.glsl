@@ -33,14 +33,32 @@ int cellBound(Cells cells, int i) {
 // Begin of the cell below that of bounds low and high, which may lie outside of the area, of the same width.
 int boundBelow(Cells cells, int i, int low, int high) { return i > 0 ? cellBound(cells, i - 1) : max(2 * low - high, 0); }
 
-// The texel that stands for the cell in a column (x) and row (y). Multiples of the golden section fill a turn (2^32) evenly,
-// however many there are; of opposite signs, the offsets do so across both diagonals, too.
+// A row or a column of cells: its bounds in texels, and what it says of the texels that stand for its cells.
+struct Strip {
+  int low, high;
+  bool hasReceiver;
+  uint place;  // along the other axis, in 2^-16 of the cell
+};
 ivec2 receiverTexel = ivec2(-1);  // that the receiver lies in
-ivec2 cellTexel(ivec2 low, ivec2 high, ivec2 cell) {
-  if (all(greaterThanEqual(receiverTexel, low)) && all(lessThan(receiverTexel, high))) return receiverTexel;
-  const uvec2 turn = uvec2(cell.y, -cell.x) * 2654435769u + 0x80000000u;
-  const uvec2 place = ((0x10000u - texelsSpread) >> 1) + (((turn >> 16) * texelsSpread) >> 16);
-  return low + ivec2((place * uvec2(high - low)) >> 16);
+
+// Multiples of the golden section fill a turn (2^32) evenly, however many there are; of opposite signs on the two axes, the
+// offsets do so across both diagonals, too.
+uint placeOfTexels(uint multiple) {
+  const uint turn = multiple * 2654435769u + 0x80000000u;
+  return ((0x10000u - texelsSpread) >> 1) + (((turn >> 16) * texelsSpread) >> 16);
+}
+Strip rowOf(int row, int low, int high) {
+  return Strip(low, high, receiverTexel.y >= low && receiverTexel.y < high, placeOfTexels(uint(row)));
+}
+Strip columnOf(int column, int low, int high) {
+  return Strip(low, high, receiverTexel.x >= low && receiverTexel.x < high, placeOfTexels(uint(-column)));
+}
+
+// The texel that stands for a cell.
+ivec2 cellTexel(Strip column, Strip row) {
+  if (column.hasReceiver && row.hasReceiver) return receiverTexel;
+  return ivec2(column.low + int((row.place * uint(column.high - column.low)) >> 16),
+               row.low + int((column.place * uint(row.high - row.low)) >> 16));
 }
 
 // As projectionScale(), where the light is widened as for the search area.

@@ -20,6 +20,7 @@ void hideBehindPlane(vec4 p);
 bool isSaturated();
 float gatheredVisibility();
 #if LANES > 1
+const uint kGroupPixels = kWorkListGroup / LANES;  // see listedPixel()
 // Joins what the LANES invocations of each pixel have gathered, in all of them; called by all of the group.
 void joinLanes();
 #endif
@@ -80,12 +81,12 @@ Area areaOfRange(Range range, int level);
 // Area of which the depth range decides. A coarse micro-occluder that the search area cuts stands for texels outside of it
 // too: left out, they would make points fully lit that neighbours, with one texel of the occluder in their area, find
 // shadowed by all of it. Schwarz 2009, section 4.3.1 ("over-precision"). Tiles of the HSM are whole ones at any level that a
-// budget of 4 or more leads to.
+// budget of 4 or more leads to. Cells end where the area does.
 Area queriedArea(Area area) {
 #if OCCLUDERS == OCCLUDERS_MICRORECTS || OCCLUDERS == OCCLUDERS_MORPHING_MICROQUADS
   const int level = int(ceil(levelOfArea(area)));
   return areaOfRange(occluderRange(area, level), level);
-#elif defined(GROW)
+#elif defined(GROW) && !defined(SEARCH_CELLS)
   const int level = int(ceil(levelOfArea(area)));
   return Area((area.low >> level) << level, (((area.high - 1) >> level) + 1) << level);
 #else

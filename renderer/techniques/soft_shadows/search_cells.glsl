@@ -18,70 +18,123 @@ struct CellDepth {
 };
 
 // None, if the cell lies outside of the map.
-CellDepth cellDepth(ivec2 low, ivec2 high, ivec2 cell) {
-  if (any(greaterThanEqual(low, high))) return CellDepth(kEmptyDepth, ivec2(0));
-  const ivec2 texel = cellTexel(low, high, cell);
+CellDepth cellDepth(Strip column, Strip row) {
+  if (column.low >= column.high || row.low >= row.high) return CellDepth(kEmptyDepth, ivec2(0));
+  const ivec2 texel = cellTexel(column, row);
   ++fetchCount;
   return CellDepth(minimumDepth(texel, 0), texel);
 }
 
+#ifdef BIAS_PLANE
+// beforePlane() of texels, which is linear in them: a depth times (planeOrigin + planeStep . texel) lies before planeLimit.
+float planeOrigin, planeLimit;
+vec2 planeStep;
+void preparePlane(vec4 p) {
+  const vec2 perTexel = tangentSize / float(resolution);
+  planeStep = receiverPlane * perTexel;
+  planeOrigin = 1.0 + dot(receiverPlane, tangentLow + 0.5 * perTexel - p.xy / p.z);
+  planeLimit = p.z * (1.0 - planeMargin(slopeBias + depthSpread(0)));
+  if (eyeIsBehind) planeLimit = 2.0 * p.z - planeLimit;
+}
+bool cellBlocks(CellDepth cell, vec4 p, float depth) {
+  const float scaled = cell.z * (planeOrigin + dot(planeStep, vec2(cell.texel)));
+  return cell.z < depth && (eyeIsBehind ? scaled > planeLimit : scaled < planeLimit);
+}
+#else
+void preparePlane(vec4 p) {}
 bool cellBlocks(CellDepth cell, vec4 p, float depth) { return blocks(cell.z, cell.texel, 0, p, depth); }
+#endif
 
-// Visibility by the cells of an area.
+// Rows that an invocation gathers together, column by column, so that it reads a cell once for itself and for the cell above.
+const int kBandRows = 3;
+
+// Visibility by the cells of an area. Of invocations that share a pixel, each has adjoining rows.
 float gatherOccluders(vec4 p, Area area, int level) {
   const Cells columns = cellsAlong(area.low.x, area.high.x), rows = cellsAlong(area.low.y, area.high.y);
-  if (float(columns.count + 1) * float(rows.count) > float(maxIterations)) {
+  if (float(columns.count + 1) * float(rows.count + kBandRows - 1) > float(maxIterations)) {
     pixelClass = kCutShort;
     return uintBitsToFloat(0x7fc00000u);  // no number rather than a wrong one
   }
   receiverTexel = ivec2(floor(mapTexel(p.xy / p.z)));
   const float depth = biasedDepth(p, 0);
+  preparePlane(p);
   // Unit light coordinates of edge e (in texels) thrown by k: k (scale e + shift) + eyeOnLight.
   const vec2 scale = p.z * tangentSize / (float(resolution) * lightSize);
   const vec2 shift = (p.z * tangentLow - p.xy) / lightSize;
   const vec2 largest = 1.0 / (scale * leastWidth);
-  for (int y = firstRow; y < rows.count; y += rowStep) {
-    const ivec2 boundsY = ivec2(cellBound(rows, y), cellBound(rows, y + 1));
-    const vec2 edgesY = scale.y * vec2(boundsY) + shift.y;
-    ivec2 boundsX = ivec2(0, columns.low);
+  const int perInvocation = (rows.count + rowStep - 1) / rowStep;
+  const int endRow = min((firstRow + 1) * perInvocation, rows.count);
+  for (int bandRow = firstRow * perInvocation; bandRow < endRow; bandRow += kBandRows) {
+    // The row below the band, then the band's; those beyond the last are empty.
+    Strip band[kBandRows + 1];
+    float edgesY[kBandRows + 1];  // upper ones, on the light
+    const int bandLow = cellBound(rows, bandRow);
+    band[0] = rowOf(bandRow - 1, boundBelow(rows, bandRow, bandLow, cellBound(rows, bandRow + 1)), bandLow);
+    edgesY[0] = scale.y * float(bandLow) + shift.y;
+    for (int r = 1; r <= kBandRows; ++r) {
+      band[r] = rowOf(bandRow + r - 1, band[r - 1].high, cellBound(rows, min(bandRow + r, endRow)));
+      edgesY[r] = scale.y * float(band[r].high) + shift.y;
+    }
+    int nextColumn = columns.low;  // its lower bound
 #if GAP_FILL != GAP_FILL_NONE
-    const int below = boundBelow(rows, y, boundsY.x, boundsY.y);
-    const int first = boundBelow(columns, 0, columns.low, cellBound(columns, 1));
-    CellDepth left = cellDepth(ivec2(first, boundsY.x), ivec2(columns.low, boundsY.y), ivec2(-1, y));
-    bool leftBlocks = cellBlocks(left, p, depth);
+    // Of the column before: whether a cell blocks, and where its rectangle ends on the light.
+    bool leftBlocks[kBandRows + 1];
+    vec2 leftEnds[kBandRows + 1];
+    const Strip before = columnOf(-1, boundBelow(columns, 0, columns.low, cellBound(columns, 1)), columns.low);
 #if GAP_FILL == GAP_FILL_DIAGONAL
-    CellDepth lowerLeft = cellDepth(ivec2(first, below), ivec2(columns.low, boundsY.x), ivec2(-1, y - 1));
+    for (int r = 0; r <= kBandRows; ++r) {
+#else
+    for (int r = 1; r <= kBandRows; ++r) {
 #endif
+      const CellDepth cell = cellDepth(before, band[r]);
+      leftBlocks[r] = cellBlocks(cell, p, depth);
+      leftEnds[r] = widenedScale(cell.z, p.z, largest) * vec2(scale.x * float(columns.low) + shift.x, edgesY[r]) + eyeOnLight;
+    }
 #endif
     for (int x = 0; x < columns.count; ++x) {
-      boundsX = ivec2(boundsX.y, cellBound(columns, x + 1));
-      const CellDepth own = cellDepth(ivec2(boundsX.x, boundsY.x), ivec2(boundsX.y, boundsY.y), ivec2(x, y));
-      ++examinedCount;
+      const Strip column = columnOf(x, nextColumn, cellBound(columns, x + 1));
+      nextColumn = column.high;
+      const vec2 edgesX = scale.x * vec2(column.low, column.high) + shift.x;
 #if GAP_FILL != GAP_FILL_NONE
-      const CellDepth lower = cellDepth(ivec2(boundsX.x, below), ivec2(boundsX.y, boundsY.x), ivec2(x, y - 1));
+      // The same of the cell below.
+      const CellDepth lower = cellDepth(column, band[0]);
+      bool lowerBlocks = cellBlocks(lower, p, depth);
+      vec2 lowerEnd = widenedScale(lower.z, p.z, largest) * vec2(edgesX.y, edgesY[0]) + eyeOnLight;
 #endif
-      const bool blocking = cellBlocks(own, p, depth);
-      if (blocking) {
-        const vec2 edgesX = scale.x * vec2(boundsX) + shift.x;
-        const vec2 k = widenedScale(own.z, p.z, largest);
-        vec2 start = k * vec2(edgesX.x, edgesY.x) + eyeOnLight;
-        const vec2 end = k * vec2(edgesX.y, edgesY.y) + eyeOnLight;
+      for (int r = 1; r <= kBandRows; ++r) {
+        const CellDepth own = cellDepth(column, band[r]);
+        if (bandRow + r <= endRow) ++examinedCount;
+        const bool blocking = cellBlocks(own, p, depth);
+        vec2 end = vec2(0.0);
+        if (blocking) {
+          const vec2 k = widenedScale(own.z, p.z, largest);
+          vec2 start = k * vec2(edgesX.x, edgesY[r - 1]) + eyeOnLight;
+          end = k * vec2(edgesX.y, edgesY[r]) + eyeOnLight;
 #if GAP_FILL != GAP_FILL_NONE
-        if (leftBlocks) start.x = stretchedTo(start.x, widenedScale(left.z, p.z, largest).x * edgesX.x + eyeOnLight.x);
-        if (cellBlocks(lower, p, depth)) start.y = stretchedTo(start.y, widenedScale(lower.z, p.z, largest).y * edgesY.x + eyeOnLight.y);
+          if (leftBlocks[r]) start.x = stretchedTo(start.x, leftEnds[r].x);
+          if (lowerBlocks) start.y = stretchedTo(start.y, lowerEnd.y);
 #endif
 #if GAP_FILL == GAP_FILL_DIAGONAL
-        if (cellBlocks(lowerLeft, p, depth))
-          start = min(start, widenedScale(lowerLeft.z, p.z, largest) * vec2(edgesX.x, edgesY.x) + eyeOnLight);
+          if (leftBlocks[r - 1]) start = min(start, leftEnds[r - 1]);
 #endif
-        accumulateOnLight(start, end);
+          accumulateOnLight(start, end);
+        }
+#if GAP_FILL == GAP_FILL_DIAGONAL
+        // The row above still needs its own of the column before, and this one's.
+        leftBlocks[r - 1] = lowerBlocks;
+        leftEnds[r - 1] = lowerEnd;
+#elif GAP_FILL != GAP_FILL_NONE
+        leftBlocks[r] = blocking;
+        leftEnds[r] = end;
+#endif
+#if GAP_FILL != GAP_FILL_NONE
+        lowerBlocks = blocking;
+        lowerEnd = end;
+#endif
       }
-#if GAP_FILL != GAP_FILL_NONE
-      left = own;
-      leftBlocks = blocking;
 #if GAP_FILL == GAP_FILL_DIAGONAL
-      lowerLeft = lower;
-#endif
+      leftBlocks[kBandRows] = lowerBlocks;
+      leftEnds[kBandRows] = lowerEnd;
 #endif
     }
     if (isSaturated()) return 0.0;

@@ -105,26 +105,44 @@ void FactorPass::dispatch(const gl::Program& program) const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void FactorPass::runFactors(frame::Frame& frame, const gl::Program& program) const {
+  const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
+  const auto* uniform = std::get_if<BySegments>(&settings_.factors);
+  program.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
+  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
+  program.set("nearest", static_cast<float>(frame::nearPlane(frame)));
+  if (deviation)
+    program.set("tolerance", static_cast<float>(surfaces::objectTolerance(
+                                 deviation->tolerancePx, 1.0, frame.tanHalfFov(), frame.sizePx().y)));
+  program.set("mostSegments", deviation ? deviation->most : kMostSegments);
+  program.set("uniformSegments", uniform ? uniform->segments : 0);
+  program.set("cull", settings_.cull ? 1 : 0);
+  program.set("strict", deviation && deviation->strict ? 1 : 0);
+  dispatch(program);
+}
+
+int64_t FactorPass::countCapped(frame::Frame& frame) const {
+  gl::ShaderDefines defines =
+      with(factorDefines(patches_.defines(), settings_), "BOUNDS_MADE", settings_.precompute);
+  defines["COUNT_CAPPED"] = "1";
+  const gl::Buffer flags(own_.bytes(), nullptr);
+  patches_.bindStorage();
+  flags.bindStorage(kOwnFactorsBuffer);
+  bounds_.bindStorage(kPatchBoundsBuffer);
+  runFactors(frame, frame.context().programs().compute(kFactors, defines));
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  int64_t out = 0;
+  for (const glm::uvec2& flag : flags.read<glm::uvec2>(0, patches_.count())) out += flag.x;
+  return out;
+}
+
 void FactorPass::run(frame::Frame& frame) const {
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);
   {
     const auto scope = frame.passes().open("tessellation/factors");
-    const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
-    const auto* uniform = std::get_if<BySegments>(&settings_.factors);
-    factorsProgram_.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
-    factorsProgram_.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-    factorsProgram_.set("nearest", static_cast<float>(frame::nearPlane(frame)));
-    if (deviation)
-      factorsProgram_.set(
-          "tolerance", static_cast<float>(surfaces::objectTolerance(deviation->tolerancePx, 1.0,
-                                                                    frame.tanHalfFov(), frame.sizePx().y)));
-    factorsProgram_.set("mostSegments", deviation ? deviation->most : kMostSegments);
-    factorsProgram_.set("uniformSegments", uniform ? uniform->segments : 0);
-    factorsProgram_.set("cull", settings_.cull ? 1 : 0);
-    factorsProgram_.set("strict", deviation && deviation->strict ? 1 : 0);
-    dispatch(factorsProgram_);
+    runFactors(frame, factorsProgram_);
   }
   const auto scope = frame.passes().open("tessellation/counts");
   factors_.bindStorage(kFactorsBuffer);

@@ -83,6 +83,10 @@ class FactorPass {
   /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 
+  /// Patches whose bound asks for more segments than a side may have, or of which no bound is known: those
+  /// may deviate by more than the tolerance. Computes the last frame's factors again and waits for the GPU.
+  int64_t countCapped(frame::Frame& frame) const;
+
   const gl::Buffer& factors() const { return factors_; }  ///< kFactorsBuffer: PatchFactors
   const gl::Buffer& ownFactors() const {
     return own_;
@@ -94,6 +98,7 @@ class FactorPass {
   const PatchBuffers& patches_;
   FactorSettings settings_;
   void dispatch(const gl::Program& program) const;
+  void runFactors(frame::Frame& frame, const gl::Program& program) const;
 
   const gl::Program &factorsProgram_, &countsProgram_;
   gl::Buffer own_, factors_, counts_, bounds_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 1: factors of each patch for itself, 0 where it lies outside the view. See factor_pass.h.
+// Phase 1: factors of each patch for itself, 0 where it lies outside the view. COUNT_CAPPED: in their place, whether more
+// segments would be needed. See factor_pass.h.
 #include "renderer/surfaces/factor_rules.h"
 #include "renderer/surfaces/spacing.h"
 #include "renderer/techniques/tessellation/patches.glsl"
@@ -24,9 +25,14 @@ uniform int cull, strict;
 
 vec3 projected(vec4 p) { return p.w == 0.0 ? p.xyz : p.xyz / p.w; }
 
+bool capped = false;  // more segments would be needed
+
 // A NaN counts as too many. Rounded up, so that a bound is kept.
 int units(float segments) {
-  if (!(segments <= float(mostSegments))) return mostSegments * kSegmentUnit;
+  if (!(segments <= float(mostSegments))) {
+    capped = true;
+    return mostSegments * kSegmentUnit;
+  }
   return max(kSegmentUnit, int(ceil(segments * float(kSegmentUnit))));
 }
 
@@ -168,17 +174,9 @@ void see(inout Seen seen, vec3 point) {
   seen.offAxis = max(seen.offAxis, dot(p.xy, p.xy) / (near_ * near_));
 }
 
-void main() {
-  const uint number = gl_GlobalInvocationID.x;
-  if (number >= patchCount) return;
-  const TessellatedPatch patch_ = patches[number];
-  const uint shape = shapeOf(patch_);
-  const int count = pointCount(shape), first = int(patch_.firstPoint);
-#ifdef MAKE_BOUNDS
-  PatchBounds made = boxOf(first, count);
-  if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
-  bounds[number] = made;
-#else
+#ifndef MAKE_BOUNDS
+uvec2 factorsOf(uint number, uint shape, int first) {
+  const int count = pointCount(shape);
   Seen seen = Seen(3e38, 0.0, true, true, true, true, true);
 #ifdef BOUNDS_MADE
   const PatchBounds box = bounds[number];
@@ -188,19 +186,13 @@ void main() {
   for (int i = 0; i < count; ++i) see(seen, projected(patchPoints[first + i]));
 #endif
   // Only a patch with positive weights lies within the hull of its control points.
-  if (cull != 0 && box.finite != 0u && (seen.left || seen.right || seen.below || seen.above || seen.behind)) {
-    ownFactors[number] = uvec2(0u);
-    return;
-  }
-  if (uniformSegments > 0) {
-    ownFactors[number] = packedUnits(ivec4(uniformSegments * kSegmentUnit));
-    return;
-  }
+  if (cull != 0 && box.finite != 0u && (seen.left || seen.right || seen.below || seen.above || seen.behind)) return uvec2(0u);
+  if (uniformSegments > 0) return packedUnits(ivec4(uniformSegments * kSegmentUnit));
   float eps = tolerance * max(seen.least, nearest);
   if (strict != 0) eps /= sqrt(1.0 + min(seen.offAxis, dot(rayScale, rayScale)));
   if (box.finite == 0u) {
-    ownFactors[number] = packedUnits(ivec4(mostSegments * kSegmentUnit));
-    return;
+    capped = true;
+    return packedUnits(ivec4(mostSegments * kSegmentUnit));
   }
 #ifdef BOUNDS_MADE
   const vec3 second = box.second;
@@ -210,9 +202,28 @@ void main() {
   if (isRectangle(shape)) {
     const vec2 segments =
         segmentsWithin(second.x, second.y, second.z, 8.0 * eps * box.weight, RULE, float(mostSegments));
-    ownFactors[number] = packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
-  } else {
-    ownFactors[number] = packedUnits(triangleUnits(second, eps, degreeU(shape)));
+    return packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
   }
+  return packedUnits(triangleUnits(second, eps, degreeU(shape)));
+}
+#endif
+
+void main() {
+  const uint number = gl_GlobalInvocationID.x;
+  if (number >= patchCount) return;
+  const TessellatedPatch patch_ = patches[number];
+  const uint shape = shapeOf(patch_);
+  const int first = int(patch_.firstPoint);
+#ifdef MAKE_BOUNDS
+  PatchBounds made = boxOf(first, pointCount(shape));
+  if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
+  bounds[number] = made;
+#else
+  const uvec2 own = factorsOf(number, shape, first);
+#ifdef COUNT_CAPPED
+  ownFactors[number] = uvec2(capped ? 1u : 0u, 0u);
+#else
+  ownFactors[number] = own;
+#endif
 #endif
 }

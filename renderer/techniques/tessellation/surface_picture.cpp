@@ -47,14 +47,23 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
   if (raster == frame::Raster::Compute) {
     constexpr int kVertexWords = sizeof(TessellatedVertex) / sizeof(float);
     gl::Context& context = frame.context();
+    frame::ComputeRaster surface(context, frame.sizePx(),
+                                 {.ids = true, .listedVertexWords = kVertexWords, .textures = false});
+    std::optional<frame::ComputeRaster> mesh;
+    gl::ShaderDefines defines;
+    if (surface.packed()) defines["PACKED"] = "1";
+    if (mesh_.triangleCount() > 0) {
+      mesh.emplace(context, frame.sizePx(), frame::ComputeRasterSettings{.ids = true, .textures = false});
+      defines["MESH"] = "1";
+    }
     const gl::Program& resolve =
-        context.programs().compute("renderer/techniques/tessellation/surface_resolve.comp.glsl");
-    compute_.emplace(Compute{resolve, frame::ComputeRaster(context, frame.sizePx(), true),
-                             frame::ComputeRaster(context, frame.sizePx(), kVertexWords)});
+        context.programs().compute("renderer/techniques/tessellation/surface_resolve.comp.glsl", defines);
+    compute_.emplace(Compute{resolve, std::move(mesh), std::move(surface)});
   }
   frame.passes().setBytesHeld(pass_ + "/raster",
                               ids_.bytes() + normals_.bytes() + depth_.bytes() +
-                                  (compute_ ? compute_->mesh.bytes() + compute_->surface.bytes() : 0));
+                                  (compute_ ? compute_->surface.bytes() : 0) +
+                                  (compute_ && compute_->mesh ? compute_->mesh->bytes() : 0));
   frame.passes().setBytesHeld(pass_ + "/shade", picture_.bytes());
 }
 
@@ -87,22 +96,24 @@ void SurfacePicture::renderListed(frame::Frame& frame, const frame::ListedTriang
   {
     const auto scope = frame.passes().open(pass_ + "/raster");
     const glm::mat4 clip = frame::anchorToClip(frame);
-    compute_->mesh.draw({frame.gpuScene(), &mesh_, nullptr}, clip, frame::nearPlane(frame));
+    if (compute_->mesh)
+      compute_->mesh->draw({frame.gpuScene(), &mesh_, nullptr}, clip, frame::nearPlane(frame));
     compute_->surface.drawListed(triangles, clip, frame::nearPlane(frame));
     const gl::Program& resolve = compute_->resolve;
     resolve.set("sizePx", frame.sizePx());
     resolve.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
     resolve.set("anchorToCamera", glm::mat4(frame.anchorToCamera()));
-    compute_->mesh.ids().bindTexture(kResolveMeshIdsUnit);
-    compute_->mesh.depth().bindTexture(kResolveMeshDepthUnit);
-    compute_->surface.ids().bindTexture(kResolveSurfaceIdsUnit);
-    compute_->surface.depth().bindTexture(kResolveSurfaceDepthUnit);
+    compute_->surface.bindGathered(
+        {kResolveSurfaceDepthsBuffer, kResolveSurfaceIdsBuffer, kResolveSurfaceQueueBuffer});
+    if (compute_->mesh)
+      compute_->mesh->bindGathered(
+          {kResolveMeshDepthsBuffer, kResolveMeshIdsBuffer, kResolveMeshQueueBuffer});
     ids_.bindImage(kResolveIdsImage, gl::Access::Write);
     normals_.bindImage(kResolveNormalsImage, gl::Access::Write);
     triangles.vertices.bindStorage(kResolveVerticesBuffer);
     triangles.indices.bindStorage(kResolveIndicesBuffer);
     resolve.dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   shade(frame);
 }

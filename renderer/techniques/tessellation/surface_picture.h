@@ -34,7 +34,8 @@ class SurfacePicture {
  private:
   struct Compute {
     const gl::Program& resolve;
-    frame::ComputeRaster mesh, surface;
+    std::optional<frame::ComputeRaster> mesh;  ///< unless all parts are curved
+    frame::ComputeRaster surface;
   };
   void shade(frame::Frame& frame);
 

@@ -10,11 +10,13 @@ using glm::ivec4;
 #endif
 
 const int kTessellationGroup = 64;
-const int kMostSegments = 64;  // of a side
+const int kMostSegments = 64;                  // of a side
+const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
 struct TessellatedPatch {  // std430
   uint firstPoint, firstNormal;
-  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the normals
+  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the
+               // normals, 3: 5 of a rectangle
   uint material;
   ivec4 neighbours;  // of each side: of what lies along it 8 patch + 2 side + (1: it runs the other way); -1:
                      // none
@@ -74,9 +76,11 @@ struct TessellationTotals {
   uint indices, instances, firstIndex, baseVertex, baseInstance;  // DrawElementsIndirectCommand
   uint overflow;                                                  // patches that do not fit
   uint neededVertices, neededIndices;
+  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
+  uint unused0, unused1;
 };
 #ifdef __cplusplus
-static_assert(sizeof(TessellationTotals) == 64 && offsetof(TessellationTotals, indices) == 32);
+static_assert(sizeof(TessellationTotals) == 80 && offsetof(TessellationTotals, indices) == 32);
 #endif
 
 // DrawElementsIndirectCommand.
@@ -105,18 +109,22 @@ const uint kPatternCountsBuffer = 5u;
 const uint kPatternOffsetsBuffer = 6u;
 const uint kPatternInstancesBuffer = 7u;
 const uint kPatternCommandsBuffer = 7u;
+const uint kGapStripsBuffer = 5u;
+const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
 const uint kSurfaceNormalsUnit = 1u;
-const uint kResolveMeshIdsUnit = 0u;
-const uint kResolveMeshDepthUnit = 1u;
-const uint kResolveSurfaceIdsUnit = 2u;
-const uint kResolveSurfaceDepthUnit = 3u;
 const uint kResolveIdsImage = 0u;
 const uint kResolveNormalsImage = 1u;
 const uint kResolveVerticesBuffer = 0u;
 const uint kResolveIndicesBuffer = 1u;
+const uint kResolveSurfaceDepthsBuffer = 2u;
+const uint kResolveSurfaceIdsBuffer = 3u;
+const uint kResolveSurfaceQueueBuffer = 4u;
+const uint kResolveMeshDepthsBuffer = 5u;
+const uint kResolveMeshIdsBuffer = 6u;
+const uint kResolveMeshQueueBuffer = 7u;
 const uint kSurfacePictureImage = 0u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
 

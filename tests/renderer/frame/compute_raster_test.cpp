@@ -67,6 +67,23 @@ TEST_F(ComputeRasterTest, NeedsNoClippingForTrianglesThatReachBehindTheEye) {
   EXPECT_LT(differingShare(hardware.ids, compute.ids), 0.01);
 }
 
+/// Depth and index in 64 bits against two passes, which a device without such atomic operations takes.
+TEST_F(ComputeRasterTest, PackedSearchSeesWhatTwoPassesSee) {
+  if (!ComputeRaster::canPack()) GTEST_SKIP() << "no atomic operations on 64 bits here";
+  for (const char* name : {"sphere_grid", "columns_hall", "cornell_box", "comb"}) {
+    const scene::Scene scene = scene::buildScene(name, {});
+    const GpuScene gpuScene(scene);
+    Frame frame(context(), scene, gpuScene, {121, 83});
+    const ComputeRaster two(context(), frame.sizePx(), {.ids = true, .search = TriangleSearch::TwoPasses}),
+        packed(context(), frame.sizePx(), {.ids = true, .search = TriangleSearch::Packed});
+    for (int again = 0; again < 2; ++again)  // buffers are left as the next frame needs them
+      for (const ComputeRaster* raster : {&two, &packed})
+        raster->draw(gpuScene, anchorToClip(frame), nearPlane(frame));
+    EXPECT_EQ(two.ids().readUint(), packed.ids().readUint()) << name;
+    EXPECT_EQ(two.depth().read().data, packed.depth().read().data) << name;
+  }
+}
+
 /// Triangle that the ray of a pixel meets first, in double precision; none where the ray passes an edge or
 /// two depths too closely to tell in single precision.
 struct Hit {

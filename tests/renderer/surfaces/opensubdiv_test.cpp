@@ -12,7 +12,7 @@
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/catmull_clark.h"
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/loop_point.h"
 
 namespace limen::surfaces {

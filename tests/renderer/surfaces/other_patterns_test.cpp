@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
 
 namespace limen::surfaces {
@@ -45,6 +47,127 @@ TEST(OtherPatterns, TileTheDomain) {
     // A transition on one segment alone leaves Moreton's no core.
     if (std::max(f[0], f[2]) > 1 && std::max(f[1], f[3]) > 1)
       expectTiling(Domain::Rectangle, moretonPattern(f), "Moreton " + named(f));
+  }
+}
+
+/// Boundary edges of a pattern lie on the sides, as many as each side's factor.
+void expectSides(const PatternMesh& mesh, const Factors& factors, const std::string& what) {
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+  std::array<int, 3> found{};
+  for (const auto& [edge, count] : edges) {
+    if (edges.contains({edge.second, edge.first})) continue;
+    const glm::dvec2 a = mesh.points[edge.first], b = mesh.points[edge.second];
+    const std::array<double, 3> away = {std::max(1.0 - a.x - a.y, 1.0 - b.x - b.y), std::max(a.x, b.x),
+                                        std::max(a.y, b.y)};
+    const auto side = static_cast<size_t>(std::min_element(away.begin(), away.end()) - away.begin());
+    EXPECT_LT(away[side], 1e-12) << what;
+    // Of equal length.
+    EXPECT_NEAR(std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)), 1.0 / factors[side], 1e-12) << what;
+    ++found[side];
+  }
+  for (size_t s = 0; s < 3; ++s) EXPECT_EQ(found[s], factors[s]) << what;
+}
+
+TEST(OtherPatterns, OfTrianglesTileTheDomain) {
+  for (int code = 0; code < 9 * 9 * 9; ++code) {
+    const Factors f = {code % 9 + 1, code / 9 % 9 + 1, code / 81 + 1, 0};
+    const auto check = [&](const PatternMesh& mesh, const std::string& name) {
+      expectTiling(Domain::Triangle, mesh, name + " " + named(f));
+      expectSides(mesh, f, name + " " + named(f));
+    };
+    check(chungKimPattern(f), "Chung and Kim");
+    for (int base = 0; base < 3; ++base) check(collapsedPattern(f, base), "Moreton");
+    check(bruijnsPattern(BruijnsScheme::ConstantMaximum, f), "CMVS");
+    check(bruijnsPattern(BruijnsScheme::LinearMaximum, f), "LMVS");
+    check(kumarPattern(f), "Kumar");
+  }
+  for (const Factors& f : {Factors{64, 1, 1, 0}, {64, 64, 1, 0}, {37, 64, 5, 0}, {7, 13, 64, 0}}) {
+    expectTiling(Domain::Triangle, chungKimPattern(f), "Chung and Kim " + named(f));
+    expectTiling(Domain::Triangle, collapsedPattern(f), "Moreton " + named(f));
+    expectTiling(Domain::Triangle, bruijnsPattern(BruijnsScheme::LinearMaximum, f), "LMVS " + named(f));
+    expectTiling(Domain::Triangle, kumarPattern(f), "Kumar " + named(f));
+  }
+}
+
+/// What the thesis says of them (section 7.3.2), for all factors to 12.
+TEST(OtherPatterns, OfTrianglesHaveTheCountsOfTheThesis) {
+  for (int m = 1; m <= 12; ++m) {
+    const Factors uniform = {m, m, m, 0};
+    const PatternMesh ours = patternMesh(Domain::Triangle, uniform);
+    // "producing the same pattern for uniform factor configurations", "identical results as our approach"
+    EXPECT_EQ(chungKimPattern(uniform).triangles.size(), ours.triangles.size());
+    EXPECT_EQ(bruijnsPattern(BruijnsScheme::Fixed, uniform).triangles.size(), size_t(m * m));
+    // Two triangles for each quad but those at the apex.
+    EXPECT_EQ(collapsedPattern(uniform).triangles.size(), size_t(2 * m * m - m));
+    // Slivers at the collapsed corner, of 1 / m of its angle or less.
+    if (m > 1) {
+      EXPECT_LT(shapeOf(Domain::Triangle, collapsedPattern(uniform)).smallestAngleDeg, 60.0 / m + 10.0);
+    }
+    // Core and a triangle for each segment of it and of the sides; two samples and four triangles at corners.
+    if (m >= 4) {
+      EXPECT_EQ(bruijnsPattern(BruijnsScheme::LinearMaximum, uniform).triangles.size(),
+                size_t((m - 3) * (m - 3) + 3 * (m - 3 + 2) + 3 * m));
+    }
+    if (m >= 2) {
+      EXPECT_EQ(kumarPattern(uniform).triangles.size(), size_t((m - 2) * (m - 2) + 3 * (m - 2) + 3 * m));
+    }
+  }
+  for (int code = 0; code < 12 * 12 * 12; ++code) {
+    const Factors f = {code % 12 + 1, code / 12 % 12 + 1, code / 144 + 1, 0};
+    if (f[0] == f[1] && f[1] == f[2]) continue;
+    const size_t ours = patternMesh(Domain::Triangle, f).triangles.size();
+    // "this scheme yields more triangles than ours in case of non-uniform tessellation factors": as many for
+    // a single transition.
+    EXPECT_GE(chungKimPattern(f).triangles.size(), ours) << named(f);
+    size_t least = SIZE_MAX;
+    for (int base = 0; base < 3; ++base) least = std::min(least, collapsedPattern(f, base).triangles.size());
+    EXPECT_EQ(bruijnsPattern(BruijnsScheme::ConstantMaximum, f).triangles.size(), least) << named(f);
+    if (std::min({f[0], f[1], f[2]}) < 4) {
+      EXPECT_EQ(bruijnsPattern(BruijnsScheme::LinearMaximum, f).triangles.size(), size_t(f[0] + f[1] + f[2]));
+    }
+  }
+}
+
+/// The table of docs/tessellation_patterns.md, which this prints: of the patterns that sample the interior as
+/// densely as the largest factor asks for, ours has the fewest triangles, and of all the best-shaped ones.
+TEST(OtherPatterns, OursHaveTheBestShapedTriangles) {
+  using Make = std::function<PatternMesh(const Factors&)>;
+  const std::vector<std::pair<const char*, Make>> patterns = {
+      {"Ours", [](const Factors& f) { return patternMesh(Domain::Triangle, f); }},
+      {"Ours, no correction", [](const Factors& f) { return patternMesh(Domain::Triangle, f, false); }},
+      {"Direct3D 11",
+       [](const Factors& f) {
+         return concentricPattern(Domain::Triangle, f, glm::ivec2(std::max({f[0], f[1], f[2]})));
+       }},
+      {"Chung and Kim", [](const Factors& f) { return chungKimPattern(f); }},
+      {"Moreton", [](const Factors& f) { return collapsedPattern(f); }},
+      {"Bruijns CMVS", [](const Factors& f) { return bruijnsPattern(BruijnsScheme::ConstantMaximum, f); }},
+      {"Bruijns LMVS", [](const Factors& f) { return bruijnsPattern(BruijnsScheme::LinearMaximum, f); }},
+      {"Kumar", [](const Factors& f) { return kumarPattern(f); }}};
+  double ours = 0.0, oursAngle = 0.0;
+  for (const auto& [name, make] : patterns) {
+    double triangles = 0.0, points = 0.0, angle = 0.0, least = 180.0;
+    int count = 0;
+    for (int code = 0; code < 16 * 16 * 16; ++code) {
+      const Factors f = {code % 16 + 1, code / 16 % 16 + 1, code / 256 + 1, 0};
+      const PatternShape shape = shapeOf(Domain::Triangle, make(f));
+      triangles += double(shape.triangles), points += double(shape.points), angle += shape.smallestAngleDeg;
+      least = std::min(least, shape.smallestAngleDeg);
+      ++count;
+    }
+    std::printf("| %s | %.1f | %.1f | %.1f | %.2f |\n", name, triangles / count, points / count,
+                angle / count, least);
+    const std::string which = name;
+    if (which == "Ours") {
+      ours = triangles, oursAngle = angle;
+      continue;
+    }
+    EXPECT_GT(oursAngle, angle) << name;
+    if (which == "Direct3D 11" || which == "Chung and Kim" || which == "Moreton") {
+      EXPECT_LT(ours, triangles) << name;
+    }
   }
 }
 

@@ -12,16 +12,19 @@ class RayCasting : public TechniqueTest {};
 
 constexpr glm::ivec2 kSize{96, 72};
 
-// Two root finders that share nothing but the ray.
-TEST_F(RayCasting, BothExactMethodsShowTheSame) {
+// Three root finders that share nothing but the ray.
+TEST_F(RayCasting, ExactMethodsShowTheSame) {
   for (const char* name : {"curved/teapot", "curved/double_torus"}) {
     const scene::Scene scene = makeScene(name);
-    const Rendered clips = render(scene, "ray_casting/exact", {}, kSize, true);
-    const Rendered hulls =
-        render(scene, "ray_casting/exact", {{"roots", std::string("hull_subdivision")}}, kSize, true);
-    EXPECT_EQ(clips.counter("surface_px"), hulls.counter("surface_px")) << name;
+    const Rendered clips = render(scene, "ray_casting/exact", {{"check", true}}, kSize, true);
     EXPECT_GT(clips.counter("surface_px"), 500) << name;
-    EXPECT_LT(meanDifference(clips.product, hulls.product), 1e-5) << name;
+    for (const char* error : {"missed_px", "hole_px", "false_px", "wrong_place_px"})
+      EXPECT_EQ(clips.counter(error), 0) << name << " " << error;
+    for (const char* roots : {"hull_subdivision", "interval_arithmetic"}) {
+      const Rendered other = render(scene, "ray_casting/exact", {{"roots", std::string(roots)}}, kSize, true);
+      EXPECT_EQ(clips.counter("surface_px"), other.counter("surface_px")) << name << " " << roots;
+      EXPECT_LT(meanDifference(clips.product, other.product), 1e-5) << name << " " << roots;
+    }
   }
 }
 
@@ -42,9 +45,8 @@ TEST_F(RayCasting, PrismsShowWhatExactRaysShow) {
   const Rendered exact = render(scene, "ray_casting/exact", {}, kSize, true);
   for (const int64_t subPrisms : {1, 4, 16})
     for (const char* sides : {"back", "front"}) {
-      const Rendered prisms = render(
-          scene, "ray_casting/pn_prisms",
-          {{"sub_prisms", subPrisms}, {"sides", std::string(sides)}, {"tolerance_px", 0.01}}, kSize, true);
+      const Rendered prisms = render(scene, "ray_casting/pn_prisms",
+                                     {{"sub_prisms", subPrisms}, {"sides", std::string(sides)}}, kSize, true);
       EXPECT_EQ(prisms.counter("prisms"), 1536 * subPrisms);
       EXPECT_EQ(prisms.counter("surface_px"), exact.counter("surface_px"));
       EXPECT_EQ(prisms.counter("hole_px"), 0) << subPrisms << sides;
@@ -52,6 +54,17 @@ TEST_F(RayCasting, PrismsShowWhatExactRaysShow) {
       EXPECT_LE(prisms.counter("wrong_place_px"), 3) << subPrisms << sides;
       EXPECT_LT(meanDifference(exact.product, prisms.product), 1e-3) << subPrisms << sides;
     }
+}
+
+// Where the surface only comes near the ray, Newton's method must not count as a hit. With a quarter of a
+// pixel as the tolerance it does, all around the silhouette.
+TEST_F(RayCasting, PrismsEndAtTheSilhouette) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const Rendered fine = render(scene, "ray_casting/pn_prisms", {}, {320, 240}, true);
+  EXPECT_LE(fine.counter("false_px"), 3);
+  EXPECT_EQ(fine.counter("missed_px"), 0);
+  const Rendered coarse = render(scene, "ray_casting/pn_prisms", {{"tolerance_px", 0.25}}, {320, 240}, true);
+  EXPECT_GT(coarse.counter("false_px"), 100);
 }
 
 // The comparison itself finds what is wrong: with no Newton step, hardly anything is hit.

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+
 #include <cmath>
 
 #include "renderer/surfaces/bezier.h"
@@ -40,7 +45,9 @@ TEST_F(RecursionTechniques, QueuesMakeThePartsOfTheRecursionInDouble) {
                              {"flatness", std::string(flatness)},
                              {"split", std::string(split)}};
         const Rendered cpu = render(scene, "recursion/cpu", given, kSize, true);
-        const Rendered queues = render(scene, "recursion/queues", given, kSize, true);
+        Given undiced = given;
+        undiced["grid"] = int64_t{1};
+        const Rendered queues = render(scene, "recursion/queues", undiced, kSize, true);
         EXPECT_EQ(queues.counter("parts_left_out"), 0);
         EXPECT_GT(cpu.counter("faces"), 50);
         EXPECT_NEAR(queues.counter("faces"), cpu.counter("faces"), 2 + 0.005 * cpu.counter("faces"))
@@ -51,14 +58,90 @@ TEST_F(RecursionTechniques, QueuesMakeThePartsOfTheRecursionInDouble) {
       }
 }
 
+/// Triangles of a technique's surface by patch and place, in an order of their own.
+std::vector<std::array<double, 10>> sortedTriangles(Technique& technique, frame::Frame& frame) {
+  technique.prepare(frame);
+  frame.begin();
+  technique.render(frame);
+  frame.end();
+  const auto surface = technique.tessellation(frame);
+  std::vector<std::array<double, 10>> out;
+  for (const glm::uvec3& t : surface->triangles) {
+    std::array<double, 10> one{double(surface->patches[t.x])};
+    for (int c = 0; c < 3; ++c) {
+      const auto at = static_cast<size_t>(1 + 3 * c);
+      const surfaces::DomainPoint& place = surface->parameters[t[c]];
+      one[at] = place.u, one[at + 1] = place.v, one[at + 2] = place.restU;
+    }
+    out.push_back(one);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Bit by bit the same triangles, whatever the number of splits in a pass.
+TEST_F(RecursionTechniques, GeometryShadersMakeWhatQueuesMake) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"})
+    for (const char* split : {"quarters", "halves"}) {
+      const scene::Scene scene = makeScene(name);
+      const frame::GpuScene gpuScene(scene);
+      frame::Frame frame(context(), scene, gpuScene, kSize);
+      const auto triangles = [&](const char* technique, Given given) {
+        given["split"] = std::string(split), given["tolerance_px"] = 0.1, given["grid"] = int64_t{2};
+        const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+        return sortedTriangles(*info.make(ParameterValues(info.parameters, given)), frame);
+      };
+      const auto queues = triangles("recursion/queues", {});
+      ASSERT_GT(queues.size(), 1000U);
+      for (const int64_t levels : {1, 2, 3})
+        EXPECT_EQ(triangles("recursion/geometry_shader", {{"levels", levels}}), queues)
+            << name << " " << split << " " << levels;
+    }
+}
+
+// 4 levels write 256 parts of 8 components; OpenGL grants 1024 components.
+TEST_F(RecursionTechniques, GeometryShadersAreRefusedMoreThanTheyMayWrite) {
+  GLint components = 0;
+  glGetIntegerv(GL_MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS, &components);
+  const scene::Scene scene = makeScene("curved/teapot");
+  if (components >= 2048) GTEST_SKIP() << "this driver grants " << components;
+  EXPECT_THROW(render(scene, "recursion/geometry_shader", {{"levels", int64_t{4}}}, kSize), Error);
+}
+
+TEST_F(RecursionTechniques, GeometryShadersCountWhatDoesNotFit) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered made =
+      render(scene, "recursion/geometry_shader",
+             {{"tolerance_px", 0.1}, {"grid", int64_t{1}}, {"capacity", int64_t{1024}}, {"cull", false}},
+             kSize, true);
+  EXPECT_GT(made.counter("parts_left_out"), 0);
+  EXPECT_LE(made.counter("faces"), 256);
+}
+
 // Full queues leave patches coarser, and say so; they leave no patch out while there is room for every patch.
 TEST_F(RecursionTechniques, FullQueuesDrawCoarserParts) {
   const scene::Scene scene = makeScene("curved/teapot");
   const Rendered made =
-      render(scene, "recursion/queues", {{"tolerance_px", 0.1}, {"capacity", int64_t{1024}}, {"cull", false}},
+      render(scene, "recursion/queues",
+             {{"tolerance_px", 0.1}, {"grid", int64_t{1}}, {"capacity", int64_t{1024}}, {"cull", false}},
              kSize, true);
   EXPECT_GT(made.counter("parts_cut_short") + made.counter("parts_left_out"), 0);
   EXPECT_LE(made.counter("faces"), 256);
+}
+
+// The tolerance is that of cells: dicing takes the place of splits, not of accuracy.
+TEST_F(RecursionTechniques, DicedPartsNeedFewerTestsForTheSameError) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered exact = render(scene, "tessellation/uniform_fine", {{"segments", int64_t{64}}}, {320, 240});
+  std::vector<double> errors, tests;
+  for (const int64_t grid : {1, 4}) {
+    const Rendered made =
+        render(scene, "recursion/queues", {{"tolerance_px", 0.25}, {"grid", grid}}, {320, 240}, true);
+    errors.push_back(meanDifference(exact.product, made.product));
+    tests.push_back(made.counter("parts_tested"));
+  }
+  EXPECT_LT(errors[1], 1.2 * errors[0]);
+  EXPECT_LT(tests[1], 0.2 * tests[0]);
 }
 
 TEST_F(RecursionTechniques, TheSurfaceReadBackIsExact) {

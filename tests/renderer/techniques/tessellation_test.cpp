@@ -7,6 +7,7 @@
 #include "renderer/surfaces/factors.h"
 #include "renderer/surfaces/other_patterns.h"
 #include "renderer/surfaces/surface_errors.h"
+#include "renderer/techniques/tessellation/surface_view.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -159,6 +160,59 @@ TEST_F(Tessellation, FactorsAreThoseOfTheBoundsInDoublePrecision) {
   EXPECT_GT(compared, 500);
 }
 
+// Those whose factor, in double precision and without a limit, is above the limit.
+TEST_F(Tessellation, PatchesThatNeedMoreSegmentsThanAllowedAreCounted) {
+  const scene::Scene torus = makeScene("curved/double_torus");
+  const auto segmentsFor = [&](int64_t most) {
+    Given given = {{"factors", std::string("deviation")},
+                   {"factors.tolerance_px", 0.1},
+                   {"factors.triangle_rule", std::string("pn_safe")},
+                   {"factors.most", most},
+                   {"cull", false}};
+    return given;
+  };
+  const frame::GpuScene gpuScene(torus);
+  frame::Frame frame(context(), torus, gpuScene, {320, 240});
+  const TechniqueInfo& info = TechniqueRegistry::instance().get("tessellation/compute");
+  const auto capped = [&](int64_t most) {
+    const auto technique = info.make(ParameterValues(info.parameters, segmentsFor(most)));
+    technique->prepare(frame);
+    frame.begin();
+    technique->render(frame);
+    frame.end();
+    for (const Counter& counter : technique->count(frame))
+      if (counter.name == "patches_capped") return counter.value;
+    return -1.0;
+  };
+  EXPECT_EQ(capped(64), 0);
+  // One factor for all sides of a triangle.
+  std::vector<double> needed;
+  const surfaces::PatchSet& set = torus.surfaces;
+  const surfaces::SurfaceView view = viewOf(frame);
+  for (const surfaces::Patch& patch : set.patches) {
+    double depth = 1e300;
+    for (uint32_t i = 0; i < 10; ++i)
+      depth =
+          std::min(depth, glm::dot(glm::dvec3(set.points[patch.firstPoint + i]) - view.eye, view.forward));
+    const double eps = surfaces::objectTolerance(0.1, depth, frame.tanHalfFov(), 240);
+    needed.push_back(std::sqrt(surfaces::constantOf(surfaces::PnBound::Safe) *
+                               surfaces::largestTangentDistance(set, patch) / eps));
+  }
+  std::vector<double> sorted = needed;
+  std::sort(sorted.begin(), sorted.end());
+  for (const size_t quarter : {1, 2, 3}) {
+    const int most = static_cast<int>(sorted[quarter * sorted.size() / 4]);
+    const auto more = [&](double by) {
+      return double(std::count_if(needed.begin(), needed.end(), [&](double n) { return n > most + by; }));
+    };
+    EXPECT_GT(more(0.0), 20) << most;
+    EXPECT_LT(more(0.0), double(needed.size())) << most;
+    // Between those that are out of rounding's reach.
+    EXPECT_GE(capped(most), more(1e-4)) << most;
+    EXPECT_LE(capped(most), more(-1e-4)) << most;
+  }
+}
+
 TEST_F(Tessellation, PatchesThatDoNotFitAreLeftOutAndCounted) {
   const scene::Scene teapot = makeScene("curved/teapot");
   // 36 vertices a patch: 10 fit into 390.
@@ -283,9 +337,59 @@ TEST_F(Tessellation, StripsCloseTheGapsBetweenLevels) {
     EXPECT_GT(closed.counter("sides_stitched"), 20);
     EXPECT_GT(closed.counter("strip_triangles"), 2 * closed.counter("sides_stitched"));
     EXPECT_EQ(gaps.counter("strip_triangles"), 0);
+    EXPECT_EQ(closed.counter("crack_pixels"), 0);
+    EXPECT_GT(gaps.counter("crack_pixels"), 0);
     EXPECT_GT(wrongPixels(gaps.product), wrongPixels(closed.product));
     EXPECT_LE(wrongPixels(closed.product), elsewhere);
   }
+}
+
+/// A drum whose lids end in straight lines and whose side in arcs: strips fill the lids up to the arcs, with
+/// the lids' normals, at all levels and pairs of them.
+TEST_F(Tessellation, StripsCloseTheGapsAtCreases) {
+  const scene::Scene drum = makeScene("curved/hard_case", {{"case", std::string("drum")}});
+  for (const double tolerance : {0.1, 0.5, 1.0, 4.0}) {
+    Given given = {{"factors", std::string("deviation")}, {"factors.tolerance_px", tolerance}};
+    const Rendered closed = render(drum, "tessellation/connected_patterns", given, {320, 240}, true);
+    given["close_gaps"] = false;
+    const Rendered open = render(drum, "tessellation/connected_patterns", given, {320, 240}, true);
+    EXPECT_GT(open.counter("crack_pixels"), 500);
+    EXPECT_EQ(open.counter("gaps_closed"), 0);
+    EXPECT_EQ(closed.counter("crack_pixels"), 0) << tolerance;
+    EXPECT_EQ(closed.counter("gaps_closed"), 24);
+  }
+}
+
+/// The lid of a drum is flat: its colour changes slowly up to the rim, as it does not where strips take the
+/// side's normals or are not there.
+TEST_F(Tessellation, StripsAtCreasesTakeTheNormalsOfTheFaceThatTheyContinue) {
+  // From above, so that the lid fills the picture's middle; its radius is 0.6.
+  const scene::Scene drum =
+      makeScene("curved/hard_case", {{"case", std::string("drum")},
+                                     {"camera", std::string("view")},
+                                     {"camera.text", std::string("eye 0 3.9 0.001 target 0 0.9 0 fov 40")}});
+  const glm::ivec2 size(240, 240);
+  const Rendered closed = render(drum, "tessellation/connected_patterns", {}, size, true);
+  const Rendered open = render(drum, "tessellation/connected_patterns", {{"close_gaps", false}}, size, true);
+  const double radiusPx = 120.0 * 0.6 / (3.0 * std::tan(glm::radians(20.0)));
+  // Those of a circle that an inscribed polygon of 12 sides lacks.
+  const auto othersIn = [&](const Image& image, double radius) {
+    int out = 0;
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        if (glm::length(glm::dvec2(x - 119.5, y - 119.5)) > radius) continue;
+        // A tenth of the way towards the middle.
+        const auto inwards = [](int at) { return int(std::lround(119.5 + 0.9 * (at - 119.5))); };
+        double difference = 0.0;
+        for (int c = 0; c < 3; ++c)
+          difference += std::abs(double(image.at(x, y, c)) - image.at(inwards(x), inwards(y), c));
+        out += difference > 0.05;
+      }
+    return out;
+  };
+  EXPECT_GT(othersIn(open.product, radiusPx - 1.5), 50);
+  EXPECT_EQ(othersIn(closed.product, radiusPx - 1.5), 0);
+  EXPECT_EQ(othersIn(open.product, 0.95 * radiusPx), 0);
 }
 
 /// The surface that a technique makes in one frame.
@@ -348,11 +452,98 @@ TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
         }
 }
 
+/// Normal fields of rectangles, in float as in double precision, whichever shader evaluates them.
+TEST_F(TessellatedSurfaces, RectanglesHaveTheirOwnNormals) {
+  const scene::Scene scene = makeScene(
+      "curved/subdivision", {{"approximation", std::string("acc_tangents")}, {"steps", int64_t{0}}});
+  for (const std::string form : {"vertex_parallel", "patch_parallel", "four_threads"}) {
+    const auto surface = made(scene, text({{"form", form}}));
+    EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).most, 0.01) << form;
+  }
+  // The geometry's are others.
+  const scene::Scene plain = makeScene("curved/subdivision", {{"steps", int64_t{0}}});
+  EXPECT_GT(surfaces::normalErrors(plain.surfaces, *made(scene, {})).most, 1.0);
+}
+
 TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
   const scene::Scene scene = makeScene("curved/teapot");
   const auto one = made(scene, {}), four = made(scene, text({{"form", "four_threads"}}));
   ASSERT_EQ(one->positions.size(), four->positions.size());
   EXPECT_EQ(std::memcmp(one->positions.data(), four->positions.data(), one->positions.size() * 12), 0);
+}
+
+/// However many invocations share a patch: vertices and triangles bit for bit, whether sides are divided
+/// alike or not, and for triangles as well.
+TEST_F(TessellatedSurfaces, InvocationsThatShareAPatchMakeTheSameOfIt) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string raster : {"hardware", "compute"}) {
+      const auto first = made(scene, text({{"form", "vertex_parallel"}, {"raster", raster}}));
+      ASSERT_GT(first->positions.size(), 1000U);
+      for (const int64_t lanes : {0, 4, 8, 32, 64, 256, 1024}) {
+        Given given = text({{"form", "patch_parallel"}, {"raster", raster}});
+        given.emplace("form.lanes", lanes);
+        const auto other = made(scene, given);
+        ASSERT_EQ(first->positions.size(), other->positions.size()) << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->positions.data(), other->positions.data(), first->positions.size() * 12),
+                  0)
+            << raster << lanes;
+        EXPECT_EQ(std::memcmp(first->normals.data(), other->normals.data(), first->normals.size() * 12), 0)
+            << raster << lanes;
+        EXPECT_EQ(first->triangles, other->triangles) << raster << lanes;
+      }
+    }
+}
+
+/// The vertex shader makes each vertex from a stored patch and sample (SC-76): on the surface, without
+/// cracks, and the picture of vertices stored.
+TEST_F(TessellatedSurfaces, TheVertexShaderEvaluatesStoredSamples) {
+  const std::array<scene::Scene, 3> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),
+                                              makeScene("curved/teapot"), makeScene("curved/double_torus")};
+  for (const scene::Scene& scene : scenes)
+    for (const std::string form : {"patch_parallel", "vertex_parallel"}) {
+      const Given given = text({{"form", form}, {"evaluation", "vertex_shader"}});
+      const auto surface = made(scene, given);
+      ASSERT_GT(surface->positions.size(), 1000U) << form;
+      EXPECT_LT(largestError(scene, *surface), 1e-5) << form;
+      EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).p99, 0.1) << form;
+      expectNoCracks(scene, *surface, form);
+      const Image stored = render(scene, "tessellation/compute", {}, {96, 72}).product;
+      EXPECT_LT(meanDifference(stored, render(scene, "tessellation/compute", given, {96, 72}).product), 1e-6)
+          << form;
+    }
+}
+
+/// Passes beside the one that is shown change no picture, whatever they draw (SC-75); neither does a coarse
+/// mesh drawn first (SC-64). Triangles stored by transform feedback take three vertices each.
+TEST_F(Tessellation, SeveralPassesShowWhatOneDoes) {
+  const scene::Scene scene = makeScene("curved/double_torus");
+  const auto whole = [](const char* name, int64_t value) {
+    return std::pair<std::string, ParameterValue>(name, value);
+  };
+  const Rendered one =
+      render(scene, "tessellation/patterns", {{"patterns", std::string("integer")}}, {96, 72}, true);
+  const Rendered compute = render(scene, "tessellation/compute",
+                                  {{"raster", std::string("hardware")}, whole("passes", 3)}, {96, 72}, true);
+  EXPECT_LT(meanDifference(one.product, compute.product), 1e-6);
+  for (const int64_t passes : {1, 2, 5})
+    for (const char* reuse : {"evaluate", "soup"})
+      for (const bool coarseFirst : {false, true}) {
+        if (coarseFirst && std::string(reuse) == "soup") continue;
+        const Rendered made = render(scene, "tessellation/patterns",
+                                     {{"patterns", std::string("integer")},
+                                      {"reuse", std::string(reuse)},
+                                      {"coarse_first", coarseFirst},
+                                      whole("passes", passes)},
+                                     {96, 72}, true);
+        EXPECT_LT(meanDifference(one.product, made.product), 1e-6) << passes << reuse << coarseFirst;
+        EXPECT_EQ(made.counter("soup_left_out"), 0);
+        EXPECT_NEAR(
+            made.counter("soup_mib"),
+            std::string(reuse) == "soup" ? compute.counter("tessellated_triangles") * 96 / 1048576.0 : 0.0,
+            1e-9);
+      }
 }
 
 /// Spacings of real factors, with sides that run in all combinations of directions.
@@ -414,7 +605,11 @@ TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
   };
   refused("tessellation/compute", text({{"form", "vertex_parallel"}, {"evaluation", "forward_differences"}}));
   refused("tessellation/compute", text({{"form", "four_threads"}, {"spacing", "geomorph"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"raster", "compute"}}));
+  refused("tessellation/compute", text({{"evaluation", "vertex_shader"}, {"spacing", "geomorph"}}));
   refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
+  refused("tessellation/patterns", {{"draw", std::string("multi_draw")}, {"coarse_first", true}});
+  refused("tessellation/patterns", {{"reuse", std::string("soup")}, {"coarse_first", true}});
   // Known with the scene alone.
   EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
 }

@@ -14,8 +14,8 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/surfaces/algebraic.h"
+#include "renderer/techniques/ray_casting/hit_counters.h"
 #include "renderer/techniques/ray_casting/ray_casting_bindings.h"
-#include "renderer/techniques/ray_casting/view_rays.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
@@ -157,20 +157,16 @@ class AlgebraicRays : public Technique {
     }
     std::vector<Counter> out = {{"root_steps_per_px", sum / std::max(covered, 1.0)},
                                 {"root_steps_max", most}};
-    if (settings_.compare) addErrors(frame, normals.read(), out);
+    if (settings_.compare) std::ranges::copy(errorsOf(frame, normals.read()), std::back_inserter(out));
     return out;
   }
 
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
-    return {{"root_steps_per_px", "Parts of rays looked at, mean of the pixels within the ball", "steps/px",
-             lower},
-            {"root_steps_max", "Parts of a ray looked at, most", "steps", lower},
-            {"surface_px", "Pixels that see the surface", "px", Direction::Neither},
-            {"missed_px", "Pixels that see the surface and were left empty", "px", lower},
-            {"hole_px", "Missed pixels whose neighbours all see the surface", "px", lower},
-            {"false_px", "Pixels filled that do not see the surface", "px", lower},
-            {"wrong_place_px", "Pixels filled with another place of the surface", "px", lower}};
+    return withHitQuantities(
+        {{"root_steps_per_px", "Parts of rays looked at, mean of the pixels within the ball", "steps/px",
+          lower},
+         {"root_steps_max", "Parts of a ray looked at, most", "steps", lower}});
   }
 
  private:
@@ -201,26 +197,19 @@ class AlgebraicRays : public Technique {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void addErrors(frame::Frame& frame, const Image& normals, std::vector<Counter>& out) const {
+  std::vector<Counter> errorsOf(frame::Frame& frame, const Image& seen) const {
     const surfaces::SurfaceView view = viewOf(frame);
     const glm::ivec2 size = frame.sizePx();
     const glm::dmat4 toObject = glm::inverse(objectToWorld(frame));
     ExactView exact;
     exact.sizePx = size;
-    exact.pixels.resize(normals.pixels());
-    std::vector<double> distances(normals.pixels());
+    exact.pixels.resize(seen.pixels());
     forAllPixels(exact.pixels.size(), [&](size_t, size_t i) {
-      distances[i] = normals.data[4 * i + 3];
       const auto number = static_cast<int>(i);
       const ViewRay ray = viewRay(view, {number % size.x, number / size.x}, size);
       exact.pixels[i] = exactPixel(ray, toObject);
     });
-    const HitErrors errors = compareHits(exact, view, distances);
-    out.insert(out.end(), {{"surface_px", double(errors.exactHits)},
-                           {"missed_px", double(errors.missed)},
-                           {"hole_px", double(errors.holes)},
-                           {"false_px", double(errors.falseHits)},
-                           {"wrong_place_px", double(errors.wrongPlace)}});
+    return hitCounters(compareHits(exact, view, seenDistances(seen)));
   }
 
   ExactPixel exactPixel(const ViewRay& ray, const glm::dmat4& toObject) const {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curved surfaces by casting a ray through each pixel's centre on the CPU, in double precision (SC-33):
-// Bézier clipping (Nishita et al. 1990), or subdivision by convex hulls, which misses no root. Schwarz 2009,
-// section 6.5.1, names both families. Weights of rational patches must be positive.
+// Bézier clipping (Nishita et al. 1990), subdivision by convex hulls, or interval arithmetic, which is proven
+// to miss no root (SC-28). Schwarz 2009, sections 6.4.1 and 6.5.1, names the families. Weights of rational
+// patches must be positive.
 #include <epoxy/gl.h>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/ray_casting/hit_counters.h"
 #include "renderer/techniques/ray_casting/ray_casting_bindings.h"
-#include "renderer/techniques/ray_casting/view_rays.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
@@ -18,6 +19,7 @@ namespace {
 struct ExactRaysSettings {
   surfaces::RootFinder roots = surfaces::RootFinder::Clipping;
   double tolerancePx = 1e-4;
+  bool check = false;
   frame::ShadedSetting shading;
   static const SettingsTable<ExactRaysSettings>& table() {
     using S = ExactRaysSettings;
@@ -28,6 +30,7 @@ struct ExactRaysSettings {
          {1e-9, 1},
          "px",
          "Distance from the ray that counts as a hit, where the surface is nearest"},
+        {&S::check, "check", "Compare all pixels with interval arithmetic when counting"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -82,23 +85,31 @@ class ExactRays : public Technique {
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
-  std::vector<Counter> count(frame::Frame&) override {
+  std::vector<Counter> count(frame::Frame& frame) override {
     double hits = 0.0;
     for (const ExactPixel& pixel : exact_.pixels) hits += pixel.hit;
-    return {{"surface_px", hits},
-            {"root_steps_per_px", double(exact_.counts.steps) / double(exact_.pixels.size())},
-            {"root_splits_per_px", double(exact_.counts.splits) / double(exact_.pixels.size())},
-            {"duplicate_roots", double(exact_.counts.duplicates)},
-            {"false_roots", double(exact_.counts.falseReports)}};
+    std::vector<Counter> out = {
+        {"root_steps_per_px", double(exact_.counts.steps) / double(exact_.pixels.size())},
+        {"root_splits_per_px", double(exact_.counts.splits) / double(exact_.pixels.size())},
+        {"duplicate_roots", double(exact_.counts.duplicates)},
+        {"false_roots", double(exact_.counts.falseReports)},
+        {"unproven_roots", double(exact_.counts.unproven)}};
+    if (settings_.check) {
+      std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
+    } else {
+      out.push_back({"surface_px", hits});
+    }
+    return out;
   }
 
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
-    return {{"surface_px", "Pixels that see the surface", "px", Direction::Neither},
-            {"root_steps_per_px", "Clips, or parts looked at", "steps/px", lower},
-            {"root_splits_per_px", "Halvings where clipping did not get on", "splits/px", lower},
-            {"duplicate_roots", "Roots found more than once, and dropped", "roots", lower},
-            {"false_roots", "Reports that are no root, and dropped", "roots", lower}};
+    return withHitQuantities(
+        {{"root_steps_per_px", "Clips, or parts looked at", "steps/px", lower},
+         {"root_splits_per_px", "Halvings where clipping did not get on", "splits/px", lower},
+         {"duplicate_roots", "Roots found more than once, and dropped", "roots", lower},
+         {"false_roots", "Reports that are no root, and dropped", "roots", lower},
+         {"unproven_roots", "Roots of interval arithmetic that may only touch", "roots", lower}});
   }
 
  private:
@@ -112,9 +123,10 @@ class ExactRays : public Technique {
 
 const RegisteredTechnique<ExactRays> kExactRaysRegistered{
     {.name = "ray_casting/exact",
-     .version = 1,
-     .summary = "Curved surfaces by casting rays on the CPU in double precision, by Bézier clipping or hulls",
-     .source = "Nishita, Sederberg and Kakimoto 1990; Schwarz 2009, section 6.5.1 (SC-33)",
+     .version = 2,
+     .summary = "Curved surfaces by casting rays on the CPU in double precision, by Bézier clipping, hulls "
+                "or intervals",
+     .source = "Nishita, Sederberg and Kakimoto 1990; Schwarz 2009, section 6.5.1 (SC-28, SC-33)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .reference = true,

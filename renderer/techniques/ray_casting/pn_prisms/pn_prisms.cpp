@@ -3,20 +3,21 @@
 // method in the fragment shader starts near the corners and in the middle, nearest first. Differences from
 // the thesis and choices where it gives no numbers:
 // - Sides turned away from the eye are drawn, so that nothing is lost where the eye is within a prism;
-// `sides: front`
-//   is the thesis' way.
+//   `sides: front` is the thesis' way.
 // - Prisms are made once, on the CPU.
 // - Offset of the starts, tolerance and number of steps are the bench's own: the thesis states none.
-// - A root slightly outside the domain counts (`margin`), so that rounding leaves no holes between triangles.
+// - A root outside the domain by no more than the tolerance counts, so that no holes are left between
+// triangles.
+// - No start is tried where the hull of the control points misses the ray.
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/ray_casting/hit_counters.h"
 #include "renderer/techniques/ray_casting/pn_prisms/prism_buffers.h"
 #include "renderer/techniques/ray_casting/ray_casting_bindings.h"
-#include "renderer/techniques/ray_casting/view_rays.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
@@ -32,10 +33,9 @@ constexpr EnumNames<PrismSides, 2> enumNames(PrismSides) {
 struct PnPrismSettings {
   int starts = 4;
   bool sorted = true;
-  int steps = 16;
-  double tolerancePx = 0.25;
+  int steps = 8;
+  double tolerancePx = 0.003;
   double cornerOffset = 0.1;
-  double margin = 1e-4;
   int subPrisms = 1;
   PrismSides sides = PrismSides::Back;
   bool check = true;
@@ -48,21 +48,20 @@ struct PnPrismSettings {
          "Schwarz 2009, section 6.5.2 (4)"},
         {&S::sorted, "sorted", "Starts are tried in the order in which the ray passes them"},
         {&S::steps, "steps", {1, 64}, "steps", "Newton steps from each start at most"},
-        {&S::tolerancePx, "tolerance_px", {0.001, 4}, "px", "Distance from the ray that counts as a hit"},
+        {&S::tolerancePx,
+         "tolerance_px",
+         {0.001, 4},
+         "px",
+         "Distance from the ray, and of a root from the triangle, that counts as a hit"},
         {&S::cornerOffset,
          "corner_offset",
          {0, 0.3},
          "",
          "Barycentric distance of the starts near corners and sides from these"},
-        {&S::margin,
-         "margin",
-         {0, 0.1},
-         "",
-         "Barycentric distance from the domain at which a root still counts"},
         {&S::subPrisms, "sub_prisms", oneOf({1, 4, 16}), "prisms",
          "Parts of a triangle with a prism of their own", "Schwarz 2009, section 6.5.2"},
         {&S::sides, "sides", "Sides of a prism that are drawn: turned to the eye, or away from it"},
-        {&S::check, "check", "Compare all pixels with exact ray casting when counting"},
+        {&S::check, "check", "Compare all pixels with interval arithmetic when counting"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -136,7 +135,7 @@ class PnPrisms : public Technique {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
     steps_ = steps.readUint(), fragments_ = fragments.readUint(), sizePx_ = size;
     std::vector<Counter> out = stepCounters(starts.readUint());
-    if (settings_.check) addErrors(frame, normals.read(), out);
+    if (settings_.check) std::ranges::copy(hitCounters(frame, normals.read()), std::back_inserter(out));
     return out;
   }
 
@@ -149,17 +148,13 @@ class PnPrisms : public Technique {
 
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
-    return {
-        {"prisms", "Prisms", "prisms", Direction::Neither},
-        {"prism_fragments_per_px", "Fragments of prisms, mean of the pixels with any", "fragments/px", lower},
-        {"newton_starts_per_px", "Newton starts, mean of the pixels with prisms", "starts/px", lower},
-        {"newton_steps_per_px", "Newton steps, mean of the pixels with prisms", "steps/px", lower},
-        {"newton_steps_max", "Newton steps of a pixel, most", "steps", lower},
-        {"surface_px", "Pixels that see the surface", "px", Direction::Neither},
-        {"missed_px", "Pixels that see the surface and were left empty", "px", lower},
-        {"hole_px", "Missed pixels whose neighbours all see the surface", "px", lower},
-        {"false_px", "Pixels filled that do not see the surface", "px", lower},
-        {"wrong_place_px", "Pixels filled with another place of the surface", "px", lower}};
+    return withHitQuantities(
+        {{"prisms", "Prisms", "prisms", Direction::Neither},
+         {"prism_fragments_per_px", "Fragments of prisms, mean of the pixels with any", "fragments/px",
+          lower},
+         {"newton_starts_per_px", "Newton starts, mean of the pixels with prisms", "starts/px", lower},
+         {"newton_steps_per_px", "Newton steps, mean of the pixels with prisms", "steps/px", lower},
+         {"newton_steps_max", "Newton steps of a pixel, most", "steps", lower}});
   }
 
  private:
@@ -169,11 +164,10 @@ class PnPrisms : public Technique {
     program.set("cameraToAnchor", glm::mat4(glm::inverse(frame.anchorToCamera())));
     program.set("sizePx", frame.sizePx());
     program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-    program.set("tolerance",
-                static_cast<float>(settings_.tolerancePx * 2.0 * frame.tanHalfFov() / frame.sizePx().y));
+    const double pixel = 2.0 * frame.tanHalfFov() / frame.sizePx().y;  // at distance 1 along the view
+    program.set("tolerance", static_cast<float>(settings_.tolerancePx * pixel));
     program.set("nearest", static_cast<float>(frame::nearPlane(frame)));
     program.set("cornerOffset", static_cast<float>(settings_.cornerOffset));
-    program.set("margin", static_cast<float>(settings_.margin));
     program.set("steps", settings_.steps);
     prisms_->draw(settings_.sides == PrismSides::Front);
   }
@@ -193,21 +187,6 @@ class PnPrisms : public Technique {
             {"newton_steps_max", most}};
   }
 
-  void addErrors(frame::Frame& frame, const Image& normals, std::vector<Counter>& out) const {
-    constexpr double kExactPx = 1e-4;
-    const surfaces::SurfaceView view = viewOf(frame);
-    const ExactView exact =
-        exactView(frame.scene().surfaces, surfaces::RootFinder::Clipping, view, frame.sizePx(), kExactPx);
-    std::vector<double> distances;
-    for (size_t i = 0; i < normals.pixels(); ++i) distances.push_back(normals.data[4 * i + 3]);
-    const HitErrors errors = compareHits(exact, view, distances);
-    out.insert(out.end(), {{"surface_px", double(errors.exactHits)},
-                           {"missed_px", double(errors.missed)},
-                           {"hole_px", double(errors.holes)},
-                           {"false_px", double(errors.falseHits)},
-                           {"wrong_place_px", double(errors.wrongPlace)}});
-  }
-
   Settings settings_;
   std::optional<PrismBuffers> prisms_;
   std::optional<SurfacePicture> picture_;
@@ -218,7 +197,7 @@ class PnPrisms : public Technique {
 
 const RegisteredTechnique<PnPrisms> kPnPrismsRegistered{
     {.name = "ray_casting/pn_prisms",
-     .version = 1,
+     .version = 2,
      .summary =
          "PN triangles by casting rays in prisms around them, with Newton's method from several starts",
      .source = "Schwarz 2009, section 6.5.2 (SC-30, SC-31)",

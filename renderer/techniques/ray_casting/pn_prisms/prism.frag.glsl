@@ -17,7 +17,6 @@ uniform mat4 cameraToAnchor;
 uniform float tolerance;     // at distance 1 along the view
 uniform float nearest;       // distance of the near plane, along the view
 uniform float cornerOffset;  // of the starts near corners and sides
-uniform float margin;        // outside the domain
 uniform int steps;
 
 #ifdef COUNTING
@@ -49,14 +48,28 @@ Point pointAt(vec2 at) {
 
 uint stepCount = 0u, startCount = 0u;
 
-// From `at`, to a root in the domain beyond the near plane.
+// How far the domain is from `at`, measured across the ray by the tangents at a root, so that a triangle's size and slant
+// do not matter. Moves `at` into the domain.
+float distanceOutside(inout vec2 at, Point found) {
+  vec2 inside = max(at, vec2(0.0));
+  const float over = inside.x + inside.y - 1.0;
+  if (over > 0.0) {
+    inside -= 0.5 * over;
+    inside = inside.x < 0.0 ? vec2(0.0, 1.0) : inside.y < 0.0 ? vec2(1.0, 0.0) : inside;
+  }
+  const vec2 move = inside - at;
+  at = inside;
+  return length(move.x * found.alongU.xy + move.y * found.alongV.xy);
+}
+
+// From `at`, to a root in the domain beyond the near plane. Of two triangles with a common side, one has a root of that
+// side in its domain, and Newton's method ends within `allowed` of it: so far outside a root must count, or holes remain.
 bool newton(inout vec2 at, float allowed, out Point found) {
   ++startCount;
   for (int i = 0; i <= steps; ++i) {
     found = pointAt(at);
-    if (dot(found.p.xy, found.p.xy) <= allowed * allowed) {
-      return min(min(at.x, at.y), 1.0 - at.x - at.y) >= -margin && found.p.z >= firstPlace;
-    }
+    if (dot(found.p.xy, found.p.xy) <= allowed * allowed)
+      return found.p.z >= firstPlace && distanceOutside(at, found) <= allowed;
     if (i == steps) break;
     ++stepCount;
     const float det = found.alongU.x * found.alongV.y - found.alongV.x * found.alongU.y;
@@ -65,6 +78,17 @@ bool newton(inout vec2 at, float allowed, out Point found) {
     if (!(max(abs(at.x), abs(at.y)) < 4.0)) return false;
   }
   return false;
+}
+
+// The hull of the control points lies to one side of the ray: there is no root, and no start need be tried.
+bool hullMisses(float allowed) {
+  vec4 low = vec4(1e30), high = vec4(-1e30);
+  for (int i = 0; i < 10; ++i) {
+    const vec4 across = vec4(points[i].xy, points[i].x + points[i].y, points[i].x - points[i].y);
+    low = min(low, across);
+    high = max(high, across);
+  }
+  return any(greaterThan(low, vec4(allowed))) || any(lessThan(high, vec4(-allowed)));
 }
 
 #if STARTS > 1
@@ -134,7 +158,8 @@ void main() {
   firstPlace = nearest * lengthPerDistance;
   vec2 at;
   Point found;
-  const bool hit = firstHit(tolerance / gl_FragCoord.w, at, found);
+  const float allowed = tolerance / gl_FragCoord.w;
+  const bool hit = !hullMisses(allowed) && firstHit(allowed, at, found);
 #ifdef COUNTING
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   imageAtomicAdd(newtonSteps, pixel, stepCount);

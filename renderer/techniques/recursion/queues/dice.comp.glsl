@@ -2,12 +2,12 @@
 // A group for each finished part: its grid of vertices and triangles. See queues.cpp.
 #include "renderer/techniques/recursion/recursion_bindings.h"
 #include "renderer/techniques/tessellation/evaluate.glsl"
+#include "renderer/techniques/tessellation/store_vertex.glsl"
 
 layout(local_size_x = kRecursionGroup) in;
 layout(std430, binding = kDiceCountersBuffer) readonly buffer Counters { RecursionCounters counters; };
 layout(std430, binding = kFinishedBuffer) readonly buffer Finished { RecursionPart finishedParts[]; };
-layout(std430, binding = kVerticesBuffer) writeonly buffer Vertices { TessellatedVertex vertices[]; };
-layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uvec2 indexPairs[]; };
 
 uniform uint partCapacity;
 uniform int grid;  // segments of a part's sides
@@ -22,7 +22,7 @@ void main() {
   const TessellatedPatch patch_ = patches[part.patchNumber];
   const bool rectangle = isRectangle(shapeOf(patch_));
   const uint side = uint(grid) + 1u, slots = side * side, firstVertex = number * slots,
-             firstIndex = number * uint(6 * grid * grid);
+             firstPair = number * uint(3 * grid * grid);
   for (uint slot = gl_LocalInvocationIndex; slot < slots; slot += uint(kRecursionGroup)) {
     const int i = int(slot % side), j = int(slot / side);
     vec4 point;
@@ -37,17 +37,15 @@ void main() {
       const vec2 at = u * a + v * b + w * c;
       point = vec4(at, 1.0 - at.x - at.y, 0.0);
     }
-    vertices[firstVertex + slot] = surfaceVertex(patch_, point);
+    storeVertex(firstVertex + slot, surfaceVertex(patch_, point));
   }
   for (uint cell = gl_LocalInvocationIndex; cell < uint(grid * grid); cell += uint(kRecursionGroup)) {
     const uint i = cell % uint(grid), j = cell / uint(grid);
-    const uint s = firstVertex + i + side * j, at = firstIndex + 6u * cell;
+    const uint s = firstVertex + i + side * j, at = firstPair + 3u * cell;
     const bool lower = rectangle || i + j < uint(grid), upper = rectangle || i + j + 1u < uint(grid);
-    indices[at] = s;
-    indices[at + 1u] = lower ? s + 1u : s;
-    indices[at + 2u] = lower ? (rectangle ? s + side + 1u : s + side) : s;
-    indices[at + 3u] = upper ? (rectangle ? s : s + 1u) : s;
-    indices[at + 4u] = upper ? s + side + 1u : s;
-    indices[at + 5u] = upper ? s + side : s;
+    indexPairs[at] = uvec2(s, lower ? s + 1u : s);
+    indexPairs[at + 1u] =
+        uvec2(lower ? (rectangle ? s + side + 1u : s + side) : s, upper ? (rectangle ? s : s + 1u) : s);
+    indexPairs[at + 2u] = uvec2(upper ? s + side + 1u : s, upper ? s + side : s);
   }
 }

@@ -50,12 +50,12 @@ void accumulateEdge(vec2 from, vec2 to) {
 // areas of the sum A, rounding differs from that of another order by less than 2^-23 n A.
 shared float laneAreas[kWorkListGroup];
 void joinLanes() {
-  const uint own = gl_LocalInvocationIndex, first = own - own % LANES;
+  const uint own = gl_LocalInvocationIndex, first = own % kGroupPixels;
   laneAreas[own] = occludedArea;
   memoryBarrierShared();
   barrier();
   occludedArea = 0.0;
-  for (uint lane = 0u; lane < LANES; ++lane) occludedArea += laneAreas[first + lane];
+  for (uint lane = 0u; lane < LANES; ++lane) occludedArea += laneAreas[first + lane * kGroupPixels];
 }
 #endif
 

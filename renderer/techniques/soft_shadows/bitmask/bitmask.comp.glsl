@@ -23,13 +23,13 @@ void accumulate(vec2 low, vec2 high) { addToMask(low, high); }
 #if LANES > 1
 shared uint laneMasks[MASK_WORDS][kWorkListGroup];
 void joinLanes() {
-  const uint own = gl_LocalInvocationIndex, lane = own % LANES, first = own - lane;
+  const uint own = gl_LocalInvocationIndex, lane = own / kGroupPixels, first = own % kGroupPixels;
   for (int i = 0; i < MASK_WORDS; ++i) laneMasks[i][own] = mask[i];
   memoryBarrierShared();
   barrier();
   for (uint i = lane; i < MASK_WORDS; i += LANES) {
     uint joined = 0u;
-    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other];
+    for (uint other = 0u; other < LANES; ++other) joined |= laneMasks[i][first + other * kGroupPixels];
     laneMasks[i][first] = joined;
   }
   memoryBarrierShared();

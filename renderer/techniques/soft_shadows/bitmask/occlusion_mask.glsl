@@ -4,8 +4,8 @@
 // masks are read from a table of RECTANGLES steps on either axis (rectangle_table.h).
 //
 // A rectangle (x0, y0, x1, y1) covers the samples with x0 < s <= x1 and likewise in y, so rectangles that share an
-// edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4); here the fraction is compared instead,
-// because that sum rounds, and a bound just below a sample would then count as on it.
+// edge neither skip nor double a sample. The thesis takes floor(16 v + 3/4) as the number of samples (i + 1/4) / 16 up to v; that
+// sum rounds, and a bound just below a sample would count as on it. (floor(64 v) + 3) / 4, whole parts of integers, is exact.
 #include "renderer/techniques/soft_shadows/shadow_bindings.h"
 
 #define MASK_WORDS (SAMPLES / 32)
@@ -36,11 +36,8 @@ void coverAll() {
 // Bits [low, high), high <= 32; empty if high <= low. A shift by 32 is undefined, which bitfieldInsert avoids.
 uint bitRange(int low, int high) { return bitfieldInsert(0u, 0xffffffffu, low, max(high - low, 0)); }
 
-// Number of samples (i + offset) / n at or below v: floor(n v - offset) + 1, exactly.
-ivec2 samplesUpTo(vec2 v, float n, float offset) {
-  const vec2 scaled = v * n, whole = floor(scaled);
-  return ivec2(whole) + ivec2(greaterThanEqual(scaled - whole, vec2(offset)));
-}
+// Whole parts of count v, exact where the count is a power of two.
+ivec4 steps(vec2 low, vec2 high, float count) { return ivec4(floor(vec4(low, high) * count)); }
 
 #if SAMPLE_PLACES == SAMPLE_PLACES_ANYWHERE
 layout(binding = kRectangleMasksUnit) uniform usampler2DArray rectangleMasks;
@@ -58,8 +55,9 @@ void addToMask(vec2 low, vec2 high) {
 #elif SAMPLE_PLACES == SAMPLE_PLACES_JITTERED_GRID
 // Sample (i, j) at x = (i + (j even ? 1/4 : 3/4)) / 16, y = (j + (i even ? 3/4 : 1/4)) / 16.
 void addToMask(vec2 low, vec2 high) {
-  const ivec2 lowQuarter = samplesUpTo(low, 16.0, 0.25), highQuarter = samplesUpTo(high, 16.0, 0.25);
-  const ivec2 lowThird = samplesUpTo(low, 16.0, 0.75), highThird = samplesUpTo(high, 16.0, 0.75);
+  const ivec4 quarters = steps(low, high, 64.0);
+  const ivec4 upToQuarter = (quarters + 3) >> 2, upToThird = (quarters + 1) >> 2;
+  const ivec2 lowQuarter = upToQuarter.xy, highQuarter = upToQuarter.zw, lowThird = upToThird.xy, highThird = upToThird.zw;
   // Even rows have x offset 1/4, odd rows 3/4: one word holds an even row and the odd row above it.
   const uint columns = bitRange(lowQuarter.x, highQuarter.x) | (bitRange(lowThird.x, highThird.x) << 16);
   // Two bits a row: whether its even columns' samples lie within, then its odd ones'.
@@ -73,7 +71,8 @@ void addToMask(vec2 low, vec2 high) {
 }
 #else
 void addToMask(vec2 low, vec2 high) {
-  const ivec2 first = samplesUpTo(low, float(SAMPLES_ALONG), 0.5), end = samplesUpTo(high, float(SAMPLES_ALONG), 0.5);
+  const ivec4 upTo = (steps(low, high, float(2 * SAMPLES_ALONG)) + 1) >> 1;
+  const ivec2 first = upTo.xy, end = upTo.zw;
   const uint columns = bitRange(first.x, end.x), rows = bitRange(first.y, end.y);
 #if SAMPLES_ALONG == 32
   for (int j = 0; j < 32; ++j) mask[j] |= columns & (0u - bitfieldExtract(rows, j, 1));

@@ -48,7 +48,9 @@ const SettingsTable<SurfaceSamples>& SurfaceSamples::table() {
       {&S::search, "search",
        "Pixels whose samples are looked at: all in which triangles other than the one behind the centre may "
        "be seen, or those beside a pixel whose centre sees another surface, which misses what is thinner "
-       "than 1.4 pixels",
+       "than 1.4 pixels; centres: the same, whose samples see triangles that are behind one of the nine "
+       "centres "
+       "around, without a pass over triangles",
        "bench"}};
   return kTable;
 }
@@ -113,9 +115,11 @@ const SettingsTable<MultisampleColouredSettings>& MultisampleColouredSettings::t
 namespace {
 
 void checkSearch(const SurfaceSamples& surfaces, frame::Raster raster, const char* where) {
-  if (surfaces.search == frame::SampleSearch::Neighbours && raster != frame::Raster::Compute)
+  if (surfaces.search != frame::SampleSearch::Triangles && raster != frame::Raster::Compute)
     throw Error(
-        "the driver's rasteriser finds the samples of all pixels, and 'search: neighbours' leaves some out",
+        "the driver's rasteriser finds the samples of all pixels, and 'search: neighbours' and 'centres' "
+        "leave "
+        "some out",
         where, "give raster: compute, or search: triangles");
 }
 

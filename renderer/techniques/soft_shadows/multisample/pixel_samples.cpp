@@ -12,8 +12,12 @@ PixelSamples::PixelSamples(frame::Frame& frame, int samples, frame::Raster raste
                            const SurfaceSamples* surfaces) {
   if (frame::chosenRaster(raster, frame.context()) == frame::Raster::Compute) {
     const SurfaceSamples given = surfaces ? *surfaces : SurfaceSamples{};
-    compute_.emplace(frame, frame::standardSamplePlaces(samples), given.search,
-                     frame::SameSurface{given.tolerance, given.angleDeg});
+    const frame::SameSurface same{given.tolerance, given.angleDeg};
+    std::vector<glm::vec2> places = frame::standardSamplePlaces(samples);
+    if (given.search == frame::SampleSearch::Centres)
+      centres_.emplace(frame, std::move(places), same);
+    else
+      compute_.emplace(frame, std::move(places), given.search, same);
     return;
   }
   driver_.emplace(frame, samples);
@@ -32,12 +36,13 @@ PixelSamples::PixelSamples(frame::Frame& frame, int samples, frame::Raster raste
 
 gl::ShaderDefines PixelSamples::defines() const {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(places().size())}};
-  if (compute_) defines["LISTED"] = "1";
+  if (!driver_) defines["LISTED"] = "1";
   return defines;
 }
 
 int64_t PixelSamples::bytes() const {
   if (compute_) return compute_->bytes();
+  if (centres_) return centres_->bytes();
   return driver_->bytes() +
          (listed_ ? listed_->list.bytes() + listed_->ids.bytes() + listed_->marks.bytes() : 0);
 }
@@ -45,6 +50,10 @@ int64_t PixelSamples::bytes() const {
 void PixelSamples::draw(frame::Frame& frame, const std::string& pass) const {
   if (compute_) {
     compute_->draw(frame, pass);
+    return;
+  }
+  if (centres_) {
+    centres_->draw(frame, pass);
     return;
   }
   if (listed_) frame.get<frame::TriangleIds>();
@@ -70,13 +79,13 @@ void PixelSamples::listDriverSamples(frame::Frame& frame) const {
 }
 
 void PixelSamples::bindForSampleIds(frame::Frame& frame) const {
-  if (!compute_) {
+  if (driver_) {
     driver_->bindTexture(kSampleIdsUnit);
     return;
   }
   frame.get<frame::TriangleIds>().texture().bindTexture(kSampleIdsUnit);
-  compute_->marks().bindTexture(kSampleMarksUnit);
-  compute_->ids().bindStorage(kSampleIdsBuffer);
+  marks().bindTexture(kSampleMarksUnit);
+  ids().bindStorage(kSampleIdsBuffer);
 }
 
 }  // namespace limen::techniques

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "renderer/frame/centre_samples.h"
 #include "renderer/frame/sample_raster.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_ids.h"
 #include "renderer/techniques/soft_shadows/multisample/multisample_settings.h"
@@ -19,15 +20,23 @@ class PixelSamples {
   void draw(frame::Frame& frame, const std::string& pass) const;
 
   /// Places in the pixel, from its top left corner, 0..1: the driver's, or the standard ones.
-  const std::vector<glm::vec2>& places() const { return driver_ ? driver_->places() : compute_->places(); }
+  const std::vector<glm::vec2>& places() const {
+    return driver_ ? driver_->places() : centres_ ? centres_->places() : compute_->places();
+  }
   /// For sample_ids.glsl.
   gl::ShaderDefines defines() const;
   void bindForSampleIds(frame::Frame& frame) const;
 
   /// As SampleRaster has them.
-  const gl::Buffer& list() const { return driver_ ? listed_->list : compute_->list(); }
-  const gl::Buffer& ids() const { return driver_ ? listed_->ids : compute_->ids(); }
-  const gl::Texture& marks() const { return driver_ ? listed_->marks : compute_->marks(); }
+  const gl::Buffer& list() const {
+    return driver_ ? listed_->list : centres_ ? centres_->list() : compute_->list();
+  }
+  const gl::Buffer& ids() const {
+    return driver_ ? listed_->ids : centres_ ? centres_->ids() : compute_->ids();
+  }
+  const gl::Texture& marks() const {
+    return driver_ ? listed_->marks : centres_ ? centres_->marks() : compute_->marks();
+  }
   int64_t bytes() const;
 
  private:
@@ -41,6 +50,7 @@ class PixelSamples {
   std::optional<MultisampleIds> driver_;
   std::optional<Listed> listed_;  // of the driver's samples
   std::optional<frame::SampleRaster> compute_;
+  std::optional<frame::CentreSamples> centres_;
 };
 
 }  // namespace limen::techniques

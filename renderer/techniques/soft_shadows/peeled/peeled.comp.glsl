@@ -113,7 +113,7 @@ float visibilityOf(vec4 p, ivec2 pixel) {
       ++examinedCount;
 #ifdef SEARCH_CELLS
       const ivec2 low = ivec2(cellBound(columns, x), cellBound(rows, y)), high = ivec2(cellBound(columns, x + 1), cellBound(rows, y + 1));
-      const float z = farthestBefore(cellTexel(low, high, ivec2(x, y)), p, depth);
+      const float z = farthestBefore(cellTexel(columnOf(x, low.x, high.x), rowOf(y, low.y, high.y)), p, depth);
       if (z < depth) hidden += hiddenArea(p, vec2(low), vec2(high), z, largest);
 #else
       const ivec2 texel = area.low + ivec2(x, y);

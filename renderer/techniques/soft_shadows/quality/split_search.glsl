@@ -142,13 +142,13 @@ Area searchedArea(ivec2 pixel) {
 
 #if LANES > 1
 // Of the pixels of a group.
-shared uint sharedCutShort[kWorkListGroup / LANES];
+shared uint sharedCutShort[kGroupPixels];
 #ifdef COUNT
-shared uint sharedCounts[kWorkListGroup / LANES][4];  // what their invocations counted
+shared uint sharedCounts[kGroupPixels][4];  // what their invocations counted
 #endif
 
 void main() {
-  const uint lane = gl_LocalInvocationIndex % LANES, slot = gl_LocalInvocationIndex / LANES;
+  const uint lane = gl_LocalInvocationIndex / kGroupPixels, slot = gl_LocalInvocationIndex % kGroupPixels;
   ivec2 pixel = ivec2(0);
   const bool listed = listedPixel(pixel);
   if (lane == 0u) {

@@ -18,8 +18,8 @@ HalfSpaceOfLight turned(HalfSpaceOfLight h) { return HalfSpaceOfLight(-h.slope, 
 
 // Not the built-in functions, which need not give the same bits wherever they are compiled.
 vec3 exactCross(vec3 a, vec3 b) {
-  precise const vec3 n = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-  return n;
+  precise const float x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
+  return vec3(x, y, z);
 }
 float exactDot(vec3 a, vec3 b) {
   precise const float sum = a.x * b.x + a.y * b.y + a.z * b.z;

@@ -5,8 +5,10 @@
 // - The host reads no totals back to resize its buffers: they have a declared capacity, and patches that do
 // not fit
 //   are left out and counted.
-// - `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in the offsets; with
-//   `patch_parallel` a work group shares a patch; `four_threads` is the thesis's form.
+// - With `patch_parallel` a power of two of invocations share a patch, as many as its vertices are worth,
+// which
+//   the GPU decides; `vertex_parallel` gives each vertex an invocation of its own, which finds its patch in
+//   the offsets; `four_threads` is the thesis's form.
 // - Geomorphing evaluates the coarser level's vertices again in place of a pass over the buffers.
 // - Positions along sides are bitwise the same for both patches by the order of the sums (evaluate.glsl).
 // - The corners of adjoining transitions are corrected by default, which also keeps the bound there.
@@ -18,19 +20,48 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/depth_passes.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
+#include "renderer/techniques/tessellation/vertex_feedback.h"
 
 namespace limen::techniques {
 namespace {
 
-enum class SlotForm { VertexParallel, PatchParallel, FourThreads };
-constexpr EnumNames<SlotForm, 3> enumNames(SlotForm) {
-  return {{{{SlotForm::FourThreads, "four_threads"},
-            {SlotForm::PatchParallel, "patch_parallel"},
-            {SlotForm::VertexParallel, "vertex_parallel"}}}};
+/// Who makes vertices and indices.
+struct PatchParallel {
+  static constexpr const char *kKind = "patch_parallel", *kSummary = "some invocations for each patch";
+  int lanes = 0, verticesEach = 16;
+  static const SettingsTable<PatchParallel>& table() {
+    static const SettingsTable<PatchParallel> kTable = {
+        {&PatchParallel::lanes, "lanes", oneOf({0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}), "invocations",
+         "Invocations that share a patch. 0: the GPU decides, in each frame and for all patches, from the "
+         "mean "
+         "number of their vertices"},
+        {&PatchParallel::verticesEach,
+         "vertices_each",
+         {1, 64},
+         "vertices",
+         "Vertices of an invocation that the GPU's choice aims at; fewer where few patches would not occupy "
+         "a "
+         "GPU"}};
+    return kTable;
+  }
+};
+struct VertexParallel {
+  static constexpr const char *kKind = "vertex_parallel",
+                              *kSummary = "an invocation for each vertex, which searches for its patch";
+};
+struct FourThreads {
+  static constexpr const char *kKind = "four_threads",
+                              *kSummary = "four invocations a patch, one for each component (the thesis's)";
+};
+
+/// That occupy a GPU, of which an NVIDIA H200 runs 132 x 2048 at once, or a software renderer.
+uint32_t manyInvocations(const gl::Context& context) {
+  return context.device().software ? 1U << 8 : 1U << 18;
 }
 
 struct EvaluateDirectly {
@@ -52,6 +83,13 @@ struct EvaluateByDifferences {
   }
 };
 
+/// SC-76.
+struct EvaluateInVertexShader {
+  static constexpr const char
+      *kKind = "vertex_shader",
+      *kSummary = "by the vertex shader, in each pass, from a patch and a sample stored for each vertex";
+};
+
 /// Who makes the vertices of a side that two patches have in common (SC-74).
 enum class SharedSides { Evaluated, Copied };
 constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
@@ -63,20 +101,20 @@ constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
 
 struct ComputeTessellationSettings {
   FactorSettings tessellation;
-  SlotForm form = SlotForm::VertexParallel;
+  std::variant<PatchParallel, VertexParallel, FourThreads> form;
   Spacing spacing = Spacing::Integer;
-  std::variant<EvaluateDirectly, EvaluateByDifferences> evaluation;
+  std::variant<EvaluateDirectly, EvaluateByDifferences, EvaluateInVertexShader> evaluation;
   SharedSides sides = SharedSides::Evaluated;
   compute::ScanForm scan = compute::ScanForm::Auto;
   frame::Raster raster = frame::Raster::Auto;
   int64_t capacity = 0;
+  int passes = 1;
   frame::ShadedSetting shading;
   static const SettingsTable<ComputeTessellationSettings>& table() {
     using S = ComputeTessellationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::tessellation),
-        {&S::form, "form",
-         "What makes vertices: an invocation each, a group a patch, or four invocations a patch",
+        {&S::form, "form", "How vertices and indices are shared out to invocations",
          "Schwarz 2009, section 7.6.1"},
         {&S::spacing, "spacing", "How a side is divided whose factor is no whole number",
          "Schwarz 2009, section 7.3.3"},
@@ -94,15 +132,33 @@ struct ComputeTessellationSettings {
          "vertices",
          "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
          "Patches that do not fit are left out and counted"},
+        {&S::passes,
+         "passes",
+         {1, 8},
+         "passes",
+         "Passes over the same triangles in a frame. All but the last make depths alone; with more than one, "
+         "or "
+         "evaluation in the vertex shader, the driver makes pixels",
+         "Schwarz 2009, section 7.6.1"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
   bool byDifferences() const { return std::holds_alternative<EvaluateByDifferences>(evaluation); }
+  bool vertexParallel() const { return std::holds_alternative<VertexParallel>(form); }
+  bool fourThreads() const { return std::holds_alternative<FourThreads>(form); }
+  bool inVertexShader() const { return std::holds_alternative<EvaluateInVertexShader>(evaluation); }
+  bool needsDriver() const { return passes > 1 || inVertexShader(); }
   void check() const {
-    if (form == SlotForm::VertexParallel && byDifferences())
+    if (needsDriver() && raster == frame::Raster::Compute)
+      throw Error("several passes, and vertex shaders, are for the driver's rasteriser", "raster",
+                  "use raster: hardware");
+    if (inVertexShader() && (fourThreads() || spacing > Spacing::Dyadic || sides == SharedSides::Copied))
+      throw Error("the vertex shader takes equal steps, and each vertex for itself", "evaluation",
+                  "use spacing: integer or dyadic, sides: evaluated, and another form than four_threads");
+    if (vertexParallel() && byDifferences())
       throw Error("forward differences need invocations that go along rows", "evaluation",
                   "use form: patch_parallel or four_threads");
-    if (spacing > Spacing::Dyadic && (form == SlotForm::FourThreads || byDifferences()))
+    if (spacing > Spacing::Dyadic && (fourThreads() || byDifferences()))
       throw Error("this form of evaluation takes equal steps", "spacing",
                   "use spacing: integer or dyadic, or another form and direct evaluation");
   }
@@ -113,41 +169,52 @@ class ComputeTessellation : public Technique {
   using Settings = ComputeTessellationSettings;
   explicit ComputeTessellation(const Settings& settings) : settings_(settings) {}
   ~ComputeTessellation() override {
-    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
+    if (instanceArray_) glDeleteVertexArrays(1, &instanceArray_);
   }
 
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
     requireRectangles(frame.scene());
-    lists_ = frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
+    requireInvocations();
+    lists_ = !settings_.needsDriver() &&
+             frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     factors_.emplace(frame, *patches_, settings_.tessellation, lists_, settings_.spacing);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
     picture_.emplace(frame, settings_.shading, "tessellation",
                      lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     gl::ShaderDefines defines = patches_->defines();
-    if (settings_.form == SlotForm::VertexParallel) defines["VERTEX_PARALLEL"] = "1";
+    if (settings_.vertexParallel()) defines["VERTEX_PARALLEL"] = "1";
     if (lists_) defines["LISTS"] = "1";
     defines["SPACING"] = std::to_string(static_cast<int>(settings_.spacing));
     if (settings_.byDifferences())
       defines["RESTART"] = std::to_string(std::get<EvaluateByDifferences>(settings_.evaluation).restart);
     if (settings_.sides == SharedSides::Copied) defines["COPIED"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
-    totalsProgram_ = &programs.compute(folder + "totals.comp.glsl");
-    const bool fourThreads = settings_.form == SlotForm::FourThreads;
-    verticesProgram_ =
-        &programs.compute(folder + (fourThreads ? "four_lanes.comp.glsl" : "vertices.comp.glsl"), defines);
+    totalsProgram_ = &programs.compute(folder + "totals.comp.glsl", defines);
+    const bool inVertexShader = settings_.inVertexShader();
+    verticesProgram_ = &programs.compute(folder + (inVertexShader            ? "pattern_instances.comp.glsl"
+                                                   : settings_.fourThreads() ? "four_lanes.comp.glsl"
+                                                                             : "vertices.comp.glsl"),
+                                         defines);
     if (settings_.sides == SharedSides::Copied)
       copyProgram_ = &programs.compute(folder + "copy_sides.comp.glsl", defines);
     indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
+    gl::ShaderDefines drawDefines = inVertexShader ? patches_->defines() : gl::ShaderDefines();
+    if (inVertexShader) drawDefines["INSTANCES"] = "1";
     drawProgram_ =
-        &programs.get({folder + "surface.vert.glsl", "renderer/techniques/tessellation/surface.frag.glsl"});
+        &programs.get({inVertexShader ? "renderer/techniques/tessellation/patterns/pattern.vert.glsl"
+                                      : folder + "surface.vert.glsl",
+                       "renderer/techniques/tessellation/surface.frag.glsl"},
+                      drawDefines);
+    if (settings_.passes > 1) otherPasses_.emplace(frame, "tessellation");
     offsets_.emplace(compute::PrefixSum::bytesFor(patches_->count(), 2), nullptr);
     totals_.emplace(int64_t{sizeof(TessellationTotals)}, nullptr);
     count_.emplace(int64_t{sizeof(frame::RasterCount)}, nullptr);
     capacity_ = settings_.capacity > 0 ? settings_.capacity : capacityFor(frame);
-    vertices_.emplace(capacity_ * int64_t{sizeof(TessellatedVertex)}, nullptr);
-    indices_.emplace(capacity_ * kIndicesPerVertex * 4, nullptr);
+    vertices_.emplace(capacity_ * bytesPerVertex(), nullptr);
+    // Written by four words.
+    indices_.emplace((capacity_ * kIndicesPerVertex * 4 + 15) / 16 * 16, nullptr);
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
@@ -168,6 +235,7 @@ class ComputeTessellation : public Technique {
       totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
       totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
       totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
+      if (!settings_.vertexParallel()) setLanes(frame.context());
       glDispatchCompute(1, 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
@@ -175,28 +243,17 @@ class ComputeTessellation : public Technique {
     factors_->factors().bindStorage(kFactorsBuffer);
     vertices_->bindStorage(kVerticesBuffer);
     indices_->bindStorage(kIndicesBuffer);
-    // Four invocations a patch are 16 patches a group.
-    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX),
-         settings_.form == SlotForm::FourThreads ? 4U : uint32_t(kTessellationGroup));
+    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
     if (copyProgram_) copySides(frame);
-    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX),
-         uint32_t(kTessellationGroup));
+    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
     if (lists_) {
       picture_->renderListed(frame, {*vertices_, *indices_, *count_});
       return;
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
-    picture_->render(frame, [&] {
-      drawProgram_->use();
-      drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
-      glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-      glBindVertexArray(vertexArray_);
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, totals_->id());
-      glDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(offsetof(TessellationTotals, indices)));
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-      glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-    });
+    const auto draw = [&] { drawSurface(frame); };
+    if (otherPasses_) otherPasses_->render(frame, settings_.passes - 1, [&](int) { draw(); });
+    picture_->render(frame, draw);
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -207,7 +264,7 @@ class ComputeTessellation : public Technique {
     auto out = std::make_shared<surfaces::TessellatedSurface>();
     out->anchor = frame.gpuScene().anchor();
     out->view = viewOf(frame);
-    for (const TessellatedVertex& vertex : vertices_->read<TessellatedVertex>(0, totals.vertices)) {
+    for (const TessellatedVertex& vertex : readVertices(frame, totals)) {
       out->positions.push_back(vertex.position);
       out->normals.push_back(vertex.normal);
     }
@@ -231,29 +288,31 @@ class ComputeTessellation : public Technique {
     return out;
   }
 
-  std::vector<Counter> count(frame::Frame&) override {
+  std::vector<Counter> count(frame::Frame& frame) override {
     const TessellationTotals totals = totals_->read<TessellationTotals>()[0];
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
-    const std::vector<TessellatedVertex> vertices = vertices_->read<TessellatedVertex>(0, totals.vertices);
+    const std::vector<TessellatedVertex> vertices = readVertices(frame, totals);
     double culled = 0.0, rungs[kRungs] = {};
     for (const PatchFactors& of : factors) culled += of.segments == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
-    return {
-        {"patches_culled", culled},
-        {"patches_left_out", double(totals.overflow)},
-        {"tessellated_vertices", double(totals.vertices)},
-        {"tessellated_triangles", double(readTriangles(totals).size())},
-        {"tessellated_indices", double(totals.indices)},
-        {"tessellated_mib",
-         (double(totals.vertices) * sizeof(TessellatedVertex) + 4.0 * double(totals.indices)) / 1048576.0},
-        {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
-        {"normals_from_corners", rungs[kRungCornerPlane]},
-        {"normals_none", rungs[kRungNone]}};
+    return {{"patches_culled", culled},
+            {"patches_capped", double(factors_->countCapped(frame))},
+            {"patches_left_out", double(totals.overflow)},
+            {"tessellated_vertices", double(totals.vertices)},
+            {"tessellated_triangles", double(readTriangles(totals).size())},
+            {"tessellated_indices", double(totals.indices)},
+            {"tessellated_mib",
+             (double(totals.vertices) * double(bytesPerVertex()) + 4.0 * double(totals.indices)) / 1048576.0},
+            {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
+            {"normals_from_corners", rungs[kRungCornerPlane]},
+            {"normals_none", rungs[kRungNone]}};
   }
 
   static std::vector<Quantity> quantities() {
     return {
         {"patches_culled", "Patches culled", "patches", Direction::Neither},
+        {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+         Direction::LowerIsBetter},
         {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
         {"tessellated_vertices", "Vertices made", "vertices", Direction::LowerIsBetter},
         {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
@@ -266,29 +325,66 @@ class ComputeTessellation : public Technique {
   }
 
  private:
+  int64_t bytesPerVertex() const {
+    return settings_.inVertexShader() ? sizeof(glm::uvec2) : sizeof(TessellatedVertex);
+  }
+
   std::vector<glm::uvec3> readTriangles(const TessellationTotals& totals) const {
     if (lists_) return indices_->read<glm::uvec3>(0, totals.indices / 3);
     return surfaces::stripTriangles(indices_->read<uint32_t>(0, totals.indices));
   }
 
   void makeVertexArray() {
-    glCreateVertexArrays(1, &vertexArray_);
-    const auto attribute = [&](GLuint location, bool whole, int components, size_t offset) {
-      if (whole) {
-        glVertexArrayAttribIFormat(vertexArray_, location, components, GL_UNSIGNED_INT,
-                                   static_cast<GLuint>(offset));
-      } else {
-        glVertexArrayAttribFormat(vertexArray_, location, components, GL_FLOAT, GL_FALSE,
-                                  static_cast<GLuint>(offset));
-      }
-      glVertexArrayAttribBinding(vertexArray_, location, 0);
-      glEnableVertexArrayAttrib(vertexArray_, location);
-    };
-    attribute(0, false, 3, offsetof(TessellatedVertex, position));
-    attribute(1, true, 1, offsetof(TessellatedVertex, material));
-    attribute(2, false, 3, offsetof(TessellatedVertex, normal));
-    glVertexArrayVertexBuffer(vertexArray_, 0, vertices_->id(), 0, sizeof(TessellatedVertex));
-    glVertexArrayElementBuffer(vertexArray_, indices_->id());
+    if (!settings_.inVertexShader()) {
+      array_.emplace(*vertices_, *indices_);
+      return;
+    }
+    glCreateVertexArrays(1, &instanceArray_);
+    glVertexArrayAttribIFormat(instanceArray_, 0, 2, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(instanceArray_, 0, 0);
+    glEnableVertexArrayAttrib(instanceArray_, 0);
+    glVertexArrayVertexBuffer(instanceArray_, 0, vertices_->id(), 0, sizeof(glm::uvec2));
+    glVertexArrayElementBuffer(instanceArray_, indices_->id());
+  }
+
+  /// Of the last frame, in the order of slots. Waits for the GPU.
+  std::vector<TessellatedVertex> readVertices(frame::Frame& frame, const TessellationTotals& totals) const {
+    if (!settings_.inVertexShader()) return vertices_->read<TessellatedVertex>(0, totals.vertices);
+    const VertexFeedback feedback(std::max(totals.vertices, 1U));
+    gl::ShaderDefines defines = patches_->defines();
+    defines["INSTANCES"] = "1";
+    defines["CAPTURE"] = "1";
+    const gl::Program& program =
+        frame.context().programs().get({"renderer/techniques/tessellation/patterns/pattern.vert.glsl",
+                                        "renderer/techniques/tessellation/surface.frag.glsl"},
+                                       defines);
+    bindSurface(frame, program);
+    glEnable(GL_RASTERIZER_DISCARD);
+    feedback.capture(GL_POINTS, [&] { glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(totals.vertices)); });
+    glDisable(GL_RASTERIZER_DISCARD);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    return feedback.vertices().read<TessellatedVertex>(0, totals.vertices);
+  }
+
+  void bindSurface(frame::Frame& frame, const gl::Program& program) const {
+    program.use();
+    program.set("anchorToClip", frame::anchorToClip(frame));
+    if (array_) {
+      array_->bind();
+    } else {
+      patches_->bindStorage();
+      glBindVertexArray(instanceArray_);
+    }
+  }
+
+  void drawSurface(frame::Frame& frame) const {
+    bindSurface(frame, *drawProgram_);
+    glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, totals_->id());
+    glDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(offsetof(TessellationTotals, indices)));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
   }
 
   /// Waits for the GPU.
@@ -301,19 +397,25 @@ class ComputeTessellation : public Technique {
     return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
   }
 
-  /// `perPatch`: invocations that a patch takes, unless each slot has one.
-  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups,
-            uint32_t perPatch) {
+  void setLanes(const gl::Context& context) const {
+    const auto* patchParallel = std::get_if<PatchParallel>(&settings_.form);
+    const auto given = static_cast<uint32_t>(patchParallel ? patchParallel->lanes : 0);
+    totalsProgram_->set("lanes", settings_.fourThreads() ? 4U : given);
+    totalsProgram_->set("indexLanes", given);
+    totalsProgram_->set("manyInvocations", manyInvocations(context));
+    totalsProgram_->set(
+        "verticesPerInvocation",
+        static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
+  }
+
+  /// `groups`: where in TessellationTotals.
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
     const auto scope = frame.passes().open(pass);
     program.use();
     program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    if (settings_.form == SlotForm::VertexParallel) {
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
-      glDispatchComputeIndirect(static_cast<GLintptr>(groups));
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-    } else {
-      dispatchPatches(perPatch);
-    }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(groups));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
@@ -321,15 +423,18 @@ class ComputeTessellation : public Technique {
     const auto scope = frame.passes().open("tessellation/sides");
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    dispatchPatches(4);
+    const uint32_t sides = patches_->count() * 4,
+                   groups = (sides + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup),
+                   rows = (groups + 65534) / 65535;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
-  void dispatchPatches(uint32_t perPatch) const {
-    const uint32_t groups =
-        (patches_->count() * perPatch + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
-    const uint32_t rows = (groups + 65534) / 65535;
-    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  void requireInvocations() const {
+    const auto* of = std::get_if<PatchParallel>(&settings_.form);
+    if (of && int64_t{of->lanes} * patches_->count() > 1LL << 31)
+      throw Error("too many invocations for " + std::to_string(patches_->count()) + " patches", "form.lanes",
+                  "use fewer, or 0");
   }
 
   void requireRectangles(const scene::Scene& scene) const {
@@ -349,7 +454,9 @@ class ComputeTessellation : public Technique {
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
   bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
   int64_t capacity_ = 0;  // vertices
-  uint32_t vertexArray_ = 0;
+  std::optional<DepthPasses> otherPasses_;
+  std::optional<SurfaceVertexArray> array_;
+  uint32_t instanceArray_ = 0;  // evaluation in the vertex shader
 };
 
 struct UniformFineSettings {
@@ -401,7 +508,7 @@ class UniformFine : public Technique {
 
 const RegisteredTechnique<UniformFine> kUniformFineRegistered{
     {.name = "tessellation/uniform_fine",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces with the same fine tessellation of all patches",
      .source = "bench",
      .product = ProductKind::Colour,
@@ -412,7 +519,7 @@ const RegisteredTechnique<UniformFine> kUniformFineRegistered{
 
 const RegisteredTechnique<ComputeTessellation> kComputeTessellationRegistered{
     {.name = "tessellation/compute",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces tessellated on the fly in compute shaders (CudaTess)",
      .source = "Schwarz 2009, section 7.6 (SC-69)",
      .product = ProductKind::Colour,

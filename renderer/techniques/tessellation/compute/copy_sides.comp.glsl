@@ -3,7 +3,8 @@
 // An invocation for each side. Corners, of which both are evaluated directly, are left as they are.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
-layout(std430, binding = kVerticesBuffer) buffer Vertices { TessellatedVertex vertices[]; };
+// As store_vertex.glsl writes them: the first of two words is the position and the material.
+layout(std430, binding = kVerticesBuffer) buffer VertexWords { uvec4 vertexWords[]; };
 
 void main() {
   const uint item = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(kTessellationGroup) + gl_LocalInvocationIndex;
@@ -20,7 +21,7 @@ void main() {
   const int n = unpackedSegments(factors[number].segments)[side];
   for (int q = 1; q < n; ++q) {
     const int from = patternSideSlot(theirs, otherSide, (neighbour & 1) == 1 ? n - q : q, n);
-    vertices[slotOffsets[number].x + uint(patternSideSlot(mine, side, q, n))].position =
-        vertices[slotOffsets[other].x + uint(from)].position;
+    vertexWords[2u * (slotOffsets[number].x + uint(patternSideSlot(mine, side, q, n)))] =
+        uvec4(vertexWords[2u * (slotOffsets[other].x + uint(from))].xyz, patch_.material);
   }
 }

@@ -18,7 +18,7 @@ struct DifferenceRuns {
 };
 
 DifferenceRow differenceRow(float v, float rest) {
-  const vec4 basis = cubicBasis(v, rest);
+  precise const vec4 basis = cubicBasis(v, rest);
   const vec3 slope = 3.0 * quadraticBasis(v, rest);
   DIFFERENCE points[4], slopes[4];
   for (int i = 0; i < 4; ++i) {

@@ -3,8 +3,7 @@
 // evaluates its component of four samples; then each of them finishes one sample (there, three finish every sample
 // together). Bicubic patches; others get whole vertices from each invocation. RESTART: as in vertices.comp.glsl.
 #include "renderer/techniques/tessellation/compute/pattern_vertices.glsl"
-
-layout(std430, binding = kVerticesBuffer) writeonly buffer Vertices { TessellatedVertex vertices[]; };
+#include "renderer/techniques/tessellation/store_vertex.glsl"
 
 const int kPatchesPerGroup = kTessellationGroup / 4;
 shared float jets[kPatchesPerGroup * 4 * 12];  // of each patch and sample: p, u, v
@@ -26,9 +25,9 @@ float quadratic(float a, float b, float c, vec3 basis) {
 
 // Of one component: value, derivatives along u and v.
 vec3 componentAt(vec4 at) {
-  const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
-  const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
-  float p[4], u[4];
+  precise const vec4 bu = cubicBasis(at.x, at.z), bv = cubicBasis(at.y, at.w);
+  precise const vec3 du = quadraticBasis(at.x, at.z), dv = quadraticBasis(at.y, at.w);
+  precise float p[4], u[4];
   for (int j = 0; j < 4; ++j) {
     const float a = controlPoint(4 * j), b = controlPoint(4 * j + 1), c = controlPoint(4 * j + 2), d = controlPoint(4 * j + 3);
     p[j] = cubic(a, b, c, d, bu);
@@ -100,9 +99,9 @@ void main() {
         jet.p = vec4(jets[from], jets[from + 1], jets[from + 2], jets[from + 3]);
         jet.u = vec4(jets[from + 4], jets[from + 5], jets[from + 6], jets[from + 7]);
         jet.v = vec4(jets[from + 8], jets[from + 9], jets[from + 10], jets[from + 11]);
-        vertices[first + uint(mine)] = vertexOf(patch_, domainPoint(shape, patternSample(plan, mine)), jet);
+        storeVertex(first + uint(mine), vertexOf(patch_, domainPoint(shape, patternSample(plan, mine)), jet));
       } else {
-        vertices[first + uint(mine)] = patternVertex(patch_, number, plan, mine);
+        storeVertex(first + uint(mine), patternVertex(patch_, number, plan, mine));
       }
     }
     barrier();

@@ -1,47 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 5: indices of triangle strips, or of single triangles (LISTS: a slot is then a triangle). A group for each patch
-// or an invocation for each slot (VERTEX_PARALLEL). See compute.cpp.
+// Phase 5: indices of triangle strips, or of single triangles (LISTS: a slot is then a triangle). Some invocations for each
+// patch, or one for each slot (VERTEX_PARALLEL). See compute.cpp.
 #include "renderer/techniques/tessellation/compute/slots.glsl"
 
 layout(std430, binding = kIndicesBuffer) writeonly buffer Indices { uint indices[]; };
 
 #ifdef LISTS
 const uint kIndicesPerSlot = 3u;
+#ifdef VERTEX_PARALLEL
+layout(std430, binding = kIndicesBuffer) writeonly buffer IndexWords { uvec4 indexWords[]; };
+#endif
 #else
 const uint kIndicesPerSlot = 1u;
 #endif
 
-// `first`: first vertex and first slot of the patch.
-void writeSlot(PatternPlan plan, uint slot, uvec2 first) {
-#ifdef LISTS
-  const uvec3 corners = uvec3(patternTriangle(plan, int(slot))) + first.x;
-  const uint at = 3u * (first.y + slot);
-  indices[at] = corners.x;
-  indices[at + 1u] = corners.y;
-  indices[at + 2u] = corners.z;
-#else
+uint stripIndex(PatternPlan plan, uint slot, uint firstVertex) {
   const int vertex = patternIndex(plan, int(slot));
-  indices[first.y + slot] = vertex == kPatternRestart ? 0xffffffffu : first.x + uint(vertex);
-#endif
+  return vertex == kPatternRestart ? 0xffffffffu : firstVertex + uint(vertex);
 }
 
+#ifdef VERTEX_PARALLEL
+#ifdef LISTS
+shared uint groupIndices[3 * kTessellationGroup];
+#endif
+
 void main() {
-  const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-#ifndef VERTEX_PARALLEL
-  if (group >= totals.patches) return;
-  const uvec2 first = slotOffsets[group];
-  const uint count = slotOffsets[group + 1u].y - first.y;
-  if (count == 0u) return;
-  const PatternPlan plan = planOf(group, shapeOf(patches[group]));
-  for (uint slot = gl_LocalInvocationIndex; slot < count; slot += uint(kTessellationGroup))
-    writeSlot(plan, slot, first);
-#else
+  const uint local = gl_LocalInvocationIndex, group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   const uint slots = totals.indices / kIndicesPerSlot;
-  const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + gl_LocalInvocationIndex;
+  const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + local;
   if (firstSlot >= slots) return;
   const uint number = patchOfSlot(firstSlot, slots, 1);
-  if (slot >= slots) return;
   const uvec2 first = slotOffsets[number];
-  writeSlot(planOf(number, shapeOf(patches[number])), slot - first.y, first);
+  const PatternPlan plan = planOf(number, shapeOf(patches[number]));
+#ifdef LISTS
+  const uvec3 corners =
+      slot < slots ? uvec3(patternTriangle(plan, int(slot - first.y))) + first.x : uvec3(0u);
+  groupIndices[3u * local] = corners.x;
+  groupIndices[3u * local + 1u] = corners.y;
+  groupIndices[3u * local + 2u] = corners.z;
+  barrier();
+  // The buffer's length is a multiple of four words.
+  const uint place = group * uint(3 * kTessellationGroup / 4) + local;
+  if (local < uint(3 * kTessellationGroup / 4) && 4u * place < totals.indices)
+    indexWords[place] = uvec4(groupIndices[4u * local], groupIndices[4u * local + 1u], groupIndices[4u * local + 2u],
+                              groupIndices[4u * local + 3u]);
+#else
+  if (slot < slots) indices[slot] = stripIndex(plan, slot - first.y, first.x);
 #endif
 }
+#else
+void main() {
+  const PatchLane at = patchLane(totals.indexLaneBits);
+  if (at.number >= totals.patches) return;
+  const uvec2 first = slotOffsets[at.number];
+  const uint count = slotOffsets[at.number + 1u].y - first.y;
+  if (count == 0u) return;
+  const PatternPlan plan = planOf(at.number, shapeOf(patches[at.number]));
+#ifdef LISTS
+  // Three stores: a triangle's corners cost more than what they waste.
+  for (uint slot = at.lane; slot < count; slot += at.lanes) {
+    const uvec3 corners = uvec3(patternTriangle(plan, int(slot))) + first.x;
+    const uint place = 3u * (first.y + slot);
+    indices[place] = corners.x;
+    indices[place + 1u] = corners.y;
+    indices[place + 2u] = corners.z;
+  }
+#else
+  for (uint slot = at.lane; slot < count; slot += at.lanes)
+    indices[first.y + slot] = stripIndex(plan, slot, first.x);
+#endif
+}
+#endif

@@ -30,6 +30,17 @@ uint patchAt(uint slot, int lane, uint low, uint high) {
   return low;
 }
 
+// Of the invocations that share a patch.
+struct PatchLane {
+  uint number, lane, lanes;
+};
+
+PatchLane patchLane(uint laneBits) {
+  const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  const uint invocation = group * uint(kTessellationGroup) + gl_LocalInvocationIndex, lanes = 1u << laneBits;
+  return PatchLane(invocation >> laneBits, invocation & (lanes - 1u), lanes);
+}
+
 #ifdef VERTEX_PARALLEL
 shared uint groupPatches[2];
 

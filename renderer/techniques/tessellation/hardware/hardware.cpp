@@ -85,6 +85,7 @@ class HardwareTessellation : public Technique {
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     const auto culled = [](const PatchFactors& of) { return of.segments == 0; };
     return {{"patches_culled", double(std::count_if(factors.begin(), factors.end(), culled))},
+            {"patches_capped", double(factors_->countCapped(frame))},
             {"tessellated_triangles", double(triangles)}};
   }
 
@@ -147,6 +148,8 @@ const RegisteredTechnique<HardwareTessellation> kHardwareTessellationRegistered{
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .counters = {{"patches_culled", "Patches culled", "patches", Direction::Neither},
+                  {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+                   Direction::LowerIsBetter},
                   {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter}}}};
 
 }  // namespace

@@ -2,16 +2,20 @@
 // Dyadic connection patterns (SC-61, SC-62): each patch is drawn with a uniform pattern of its own power of
 // two, whatever its neighbours have, and strips along common sides close what this leaves open. Strips that
 // would fold over are left to back-face culling, so that the surface must be closed. Normals along a strip
-// are those of the coarser patch. The host reads the factors, which the thesis computes there.
+// are those of the coarser patch. Where neighbours have different curves between the same ends, as PN
+// triangles at creases, a strip joins the two curves whatever their levels, with the normals of one of them
+// (SC-63). The host reads the factors, which the thesis computes there.
 #include <epoxy/gl.h>
 
 #include <bit>
 
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/surfaces/inherent_gaps.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/patterns/connection_patterns.h"
+#include "renderer/techniques/tessellation/patterns/crossings.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
@@ -20,7 +24,7 @@ namespace {
 
 struct ConnectedSettings {
   FactorSettings tessellation;
-  bool batched = true, strips = true;
+  bool batched = true, strips = true, closeGaps = true;
   frame::ShadedSetting shading;
   static const SettingsTable<ConnectedSettings>& table() {
     using S = ConnectedSettings;
@@ -29,6 +33,9 @@ struct ConnectedSettings {
         {&S::batched, "batched", "Draw all patches of a level, and all strips of two levels, at once",
          "Schwarz 2009, section 7.5.3"},
         {&S::strips, "strips", "Draw the strips; without, the surface has gaps",
+         "Schwarz 2009, section 7.5.2"},
+        {&S::closeGaps, "close_gaps",
+         "Draw strips as well where neighbours with different normals have different boundaries",
          "Schwarz 2009, section 7.5.2"},
         frame::shadingBinding(&S::shading)};
     return kTable;
@@ -44,7 +51,6 @@ class ConnectedPatterns : public Technique {
   }
 
   void prepare(frame::Frame& frame) override {
-    const std::string folder = "renderer/techniques/tessellation/";
     surfaces_ = &frame.scene().surfaces;
     for (const surfaces::Patch& patch : surfaces_->patches)
       if (patch.domain != surfaces_->patches[0].domain)
@@ -62,17 +68,13 @@ class ConnectedPatterns : public Technique {
     indices_.emplace(patterns_->indices());
     // Each patch, and at most one strip for each of its sides.
     instances_.emplace(int64_t{patches_->count()} * 5 * 4, nullptr);
-    gl::ShaderDefines defines = patches_->defines();
-    const auto program = [&] {
-      return &frame.context().programs().get(
-          {folder + "patterns/pattern.vert.glsl", folder + "surface.frag.glsl"}, defines);
-    };
-    program_ = program();
-    defines["CONNECTING"] = "1";
-    stripProgram_ = program();
+    if (settings_.strips && settings_.closeGaps) gaps_ = surfaces::inherentGaps(*surfaces_);
+    if (!gaps_.empty()) gapStrips_.emplace(static_cast<int64_t>(gaps_.size() * sizeof(glm::uvec2)), nullptr);
+    programs_ = programsWith(frame, "renderer/techniques/tessellation/surface.frag.glsl");
     makeVertexArray();
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
-    frame.passes().setBytesHeld("tessellation/batches", instances_->bytes());
+    frame.passes().setBytesHeld("tessellation/batches",
+                                instances_->bytes() + (gapStrips_ ? gapStrips_->bytes() : 0));
     frame.passes().setBytesHeld("tessellation/patterns", samples_->bytes() + indices_->bytes());
   }
 
@@ -82,13 +84,16 @@ class ConnectedPatterns : public Technique {
       const auto scope = frame.passes().open("tessellation/batches");
       build();
     }
-    picture_->render(frame, [&] { draw(frame); });
+    picture_->render(frame, [&] { draw(frame, programs_, true); });
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
-  std::vector<Counter> count(frame::Frame&) override {
-    double triangles = 0.0, strips = 0.0, sides = 0.0, culled = 0.0;
+  std::vector<Counter> count(frame::Frame& frame) override {
+    const Programs crossings =
+        programsWith(frame, "renderer/techniques/tessellation/patterns/crossings.frag.glsl");
+    const uint32_t cracks = unevenCrossings(frame.sizePx(), [&] { draw(frame, crossings, false); });
+    double triangles = 0.0, strips = 0.0, sides = 0.0, closed = 0.0, culled = 0.0;
     for (const int level : levels_) {
       culled += level == 0;
       triangles +=
@@ -98,11 +103,17 @@ class ConnectedPatterns : public Technique {
       strips += command.instances * (command.indices / 4);
       sides += command.instances;
     }
+    for (const PatternCommand& command : gapCommands_) {
+      strips += command.instances * (command.indices / 4);
+      closed += command.instances;
+    }
     return {{"patches_culled", culled},
             {"tessellated_triangles", triangles + strips},
             {"strip_triangles", strips},
             {"sides_stitched", sides},
-            {"draw_calls", double(levelCommands_.size() + stripCommands_.size())}};
+            {"gaps_closed", closed},
+            {"crack_pixels", double(cracks)},
+            {"draw_calls", double(levelCommands_.size() + stripCommands_.size() + gapCommands_.size())}};
   }
 
  private:
@@ -128,15 +139,47 @@ class ConnectedPatterns : public Technique {
           byPair[{levels_[i], levels_[static_cast<size_t>(other)]}].push_back(
               static_cast<uint32_t>(4 * i + side));
         }
+    const auto gapsByPair = gapStripsByLevels();
     std::vector<uint32_t> instances;
     levelCommands_.clear();
     stripCommands_.clear();
+    gapCommands_.clear();
     for (const auto& [level, numbers] : byLevel)
       add(patterns_->levelOf(level), numbers, instances, levelCommands_);
     for (const auto& [pair, numbers] : byPair)
       add(patterns_->stripOf(pair.first, pair.second), numbers, instances, stripCommands_);
+    std::vector<glm::uvec2> gapStrips;
+    for (const auto& [pair, strips] : gapsByPair) {
+      std::vector<uint32_t> numbers;
+      for (const glm::uvec2& strip : strips) {
+        numbers.push_back(static_cast<uint32_t>(gapStrips.size()));
+        gapStrips.push_back(strip);
+      }
+      add(patterns_->stripOf(pair.first, pair.second), numbers, instances, gapCommands_);
+    }
+    if (!gapStrips.empty())
+      gapStrips_->write(0, static_cast<int64_t>(gapStrips.size() * sizeof(glm::uvec2)), gapStrips.data());
     if (!instances.empty())
       instances_->write(0, static_cast<int64_t>(instances.size()) * 4, instances.data());
+  }
+
+  /// For each pair of levels, the coarser first, what the shader reads of a strip (GAPS). Next to a culled
+  /// patch the level is that of the other.
+  std::map<std::pair<int, int>, std::vector<glm::uvec2>> gapStripsByLevels() const {
+    std::map<std::pair<int, int>, std::vector<glm::uvec2>> out;
+    for (const surfaces::InherentGap& gap : gaps_) {
+      std::array<int, 2> levels = {levels_[gap.patches[0]], levels_[gap.patches[1]]};
+      const int finest = std::max(levels[0], levels[1]);
+      if (finest == 0) continue;
+      for (int& level : levels)
+        if (level == 0) level = finest;
+      const size_t coarse = levels[1] < levels[0] ? 1 : 0;
+      const auto sideOf = [&](size_t i) { return 4 * gap.patches[i] + static_cast<uint32_t>(gap.sides[i]); };
+      const bool own = static_cast<size_t>(gap.normalsFrom) == coarse;
+      out[{levels[coarse], finest}].emplace_back(sideOf(coarse) | (own ? kGapNormalsOfOwn : 0U),
+                                                 sideOf(1 - coarse));
+    }
+    return out;
   }
 
   void add(const PatternMeshes::Mesh& mesh, const std::vector<uint32_t>& numbers,
@@ -148,7 +191,28 @@ class ConnectedPatterns : public Technique {
     instances.insert(instances.end(), numbers.begin(), numbers.end());
   }
 
-  void draw(frame::Frame& frame) const {
+  struct Programs {
+    const gl::Program *levels = nullptr, *strips = nullptr, *gaps = nullptr;
+  };
+  Programs programsWith(frame::Frame& frame, const std::string& fragmentShader) const {
+    gl::ShaderDefines defines = patches_->defines();
+    const auto program = [&] {
+      return &frame.context().programs().get(
+          {"renderer/techniques/tessellation/patterns/pattern.vert.glsl", fragmentShader}, defines);
+    };
+    Programs out;
+    out.levels = program();
+    defines["CONNECTING"] = "1";
+    out.strips = program();
+    if (gaps_.empty()) return out;
+    defines.erase("CONNECTING");
+    defines["GAPS"] = "1";
+    out.gaps = program();
+    return out;
+  }
+
+  /// `cull`: strips that have folded over.
+  void draw(frame::Frame& frame, const Programs& programs, bool cull) const {
     patches_->bindStorage();
     factors_->factors().bindStorage(kFactorsBuffer);
     glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
@@ -162,9 +226,13 @@ class ConnectedPatterns : public Technique {
             reinterpret_cast<const void*>(uintptr_t{of.firstIndex} * 4), static_cast<GLsizei>(of.instances),
             static_cast<GLint>(of.firstVertex), of.firstInstance);
     };
-    issue(*program_, levelCommands_);
-    glEnable(GL_CULL_FACE);
-    issue(*stripProgram_, stripCommands_);
+    issue(*programs.levels, levelCommands_);
+    if (cull) glEnable(GL_CULL_FACE);
+    issue(*programs.strips, stripCommands_);
+    if (programs.gaps) {
+      gapStrips_->bindStorage(kGapStripsBuffer);
+      issue(*programs.gaps, gapCommands_);
+    }
     glDisable(GL_CULL_FACE);
     glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
   }
@@ -189,25 +257,28 @@ class ConnectedPatterns : public Technique {
   std::optional<FactorPass> factors_;
   std::optional<SurfacePicture> picture_;
   std::optional<ConnectionPatterns> patterns_;
-  std::optional<gl::Buffer> samples_, indices_, instances_;
+  std::vector<surfaces::InherentGap> gaps_;
+  std::optional<gl::Buffer> samples_, indices_, instances_, gapStrips_;
   std::vector<int> levels_;  // of each patch; 0: culled
-  std::vector<PatternCommand> levelCommands_, stripCommands_;
-  const gl::Program *program_ = nullptr, *stripProgram_ = nullptr;
+  std::vector<PatternCommand> levelCommands_, stripCommands_, gapCommands_;
+  Programs programs_;
   uint32_t vertexArray_ = 0;
 };
 
 const RegisteredTechnique<ConnectedPatterns> kConnectedPatternsRegistered{
     {.name = "tessellation/connected_patterns",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces by uniform patterns of powers of two, with strips between patches of "
                 "different levels",
-     .source = "Schwarz 2009, section 7.5.2 (SC-62)",
+     .source = "Schwarz 2009, section 7.5.2 (SC-62, SC-63)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .counters = {{"patches_culled", "Patches culled", "patches", Direction::Neither},
                   {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
                   {"strip_triangles", "Triangles of strips", "triangles", Direction::LowerIsBetter},
                   {"sides_stitched", "Sides with strips", "sides", Direction::Neither},
+                  {"gaps_closed", "Gaps at creases closed", "gaps", Direction::Neither},
+                  {"crack_pixels", "Pixels with a crack in closed surfaces", "px", Direction::LowerIsBetter},
                   {"draw_calls", "Draw calls", "", Direction::LowerIsBetter}}}};
 
 }  // namespace

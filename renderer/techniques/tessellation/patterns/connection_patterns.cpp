@@ -25,15 +25,15 @@ ConnectionPatterns::ConnectionPatterns(surfaces::Domain domain, int most) {
     }
     levels_[n] = {static_cast<uint32_t>(indices_.size()) - first, first, 0};
   }
-  for (int coarse = 1; coarse < most; coarse *= 2)
-    for (int fine = 2 * coarse; fine <= most; fine *= 2) addStrip(coarse, fine);
+  for (int coarse = 1; coarse <= most; coarse *= 2)
+    for (int fine = coarse; fine <= most; fine *= 2) addStrip(coarse, fine);
 }
 
 void ConnectionPatterns::addStrip(int coarse, int fine) {
   const auto firstVertex = static_cast<uint32_t>(samples_.size()),
              firstIndex = static_cast<uint32_t>(indices_.size());
   for (int q = 0; q <= coarse; ++q) samples_.emplace_back(q, coarse, 0, 0);
-  for (int q = 0; q <= fine; ++q) samples_.emplace_back(q, fine, 0, 0);
+  for (int q = 0; q <= fine; ++q) samples_.emplace_back(q, fine, 1, 0);
   const auto inner = [](int q) { return static_cast<uint32_t>(q); };
   const auto outer = [&](int q) { return static_cast<uint32_t>(coarse + 1 + q); };
   for (int step = 0, a = 0; step < coarse + fine; ++step) {

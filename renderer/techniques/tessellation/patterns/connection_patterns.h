@@ -16,9 +16,9 @@ class ConnectionPatterns {
   ConnectionPatterns(surfaces::Domain domain, int most);
 
   PatternMeshes::Mesh levelOf(int segments) const { return levels_.at(segments); }
-  /// Between the coarser patch's segments and the finer one's, turned as the coarser patch.
+  /// Between the coarser patch's segments and the finer one's or as many, turned as the coarser patch.
   PatternMeshes::Mesh stripOf(int coarse, int fine) const { return strips_.at({coarse, fine}); }
-  const std::vector<glm::ivec4>& samples() const { return samples_; }  ///< of strips: (q, segments, 0, 0)
+  const std::vector<glm::ivec4>& samples() const { return samples_; }  ///< of strips: (q, segments, finer, 0)
   const std::vector<uint32_t>& indices() const { return indices_; }
 
  private:

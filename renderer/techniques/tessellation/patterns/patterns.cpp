@@ -12,8 +12,10 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/depth_passes.h"
 #include "renderer/techniques/tessellation/patterns/pattern_batches.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
+#include "renderer/techniques/tessellation/vertex_feedback.h"
 
 namespace limen::techniques {
 namespace {
@@ -24,6 +26,12 @@ constexpr EnumNames<PatternDraw, 3> enumNames(PatternDraw) {
   return {{{{PatternDraw::Immediate, "immediate"},
             {PatternDraw::Instanced, "instanced"},
             {PatternDraw::MultiDraw, "multi_draw"}}}};
+}
+
+/// What passes after the first draw (SC-75).
+enum class PatternReuse { Evaluate, Soup };
+constexpr EnumNames<PatternReuse, 2> enumNames(PatternReuse) {
+  return {{{{PatternReuse::Evaluate, "evaluate"}, {PatternReuse::Soup, "soup"}}}};
 }
 
 /// Which patterns there are.
@@ -40,6 +48,9 @@ struct PatternSettings {
   PatternKind patterns = PatternKind::Dyadic;
   PatternDraw draw = PatternDraw::Instanced;
   int64_t capacity = 1 << 20;
+  bool coarseFirst = false;
+  int passes = 1;
+  PatternReuse reuse = PatternReuse::Evaluate;
   frame::ShadedSetting shading;
   static const SettingsTable<PatternSettings>& table() {
     using S = PatternSettings;
@@ -57,6 +68,18 @@ struct PatternSettings {
          {4, 1 << 26},
          "vertices",
          "Vertices of all patterns that the buffers hold; indices: six times as many"},
+        {&S::coarseFirst, "coarse_first",
+         "Patches with one segment a side are drawn together, as a mesh whose other patches vanish",
+         "Dyken, Reimers and Seland 2008; Schwarz 2009, section 7.5.3"},
+        {&S::passes,
+         "passes",
+         {1, 8},
+         "passes",
+         "Passes over the same triangles in a frame. All but the last make depths alone",
+         "Schwarz 2009, section 7.6.5"},
+        {&S::reuse, "reuse",
+         "Evaluate the patterns in each pass, or store their triangles in the first by transform feedback",
+         "Lorenz and Döllner 2008; Schwarz 2009, section 7.6.5"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -67,6 +90,12 @@ struct PatternSettings {
     return deviation ? deviation->most : std::get<BySegments>(tessellation.factors).segments;
   }
   void check() const {
+    if (draw == PatternDraw::MultiDraw && coarseFirst)
+      throw Error("a single draw has no part of its own for coarse patches", "coarse_first",
+                  "use draw: instanced or immediate");
+    if (reuse == PatternReuse::Soup && coarseFirst)
+      throw Error("triangles are stored of one program alone", "coarse_first",
+                  "leave it off, or use reuse: evaluate");
     if (draw == PatternDraw::MultiDraw && !dyadic())
       throw Error("a single draw needs patterns that are known before", "draw",
                   "use patterns: dyadic or adapted, or draw: instanced");
@@ -98,6 +127,9 @@ class RefinementPatterns : public Technique {
     } else {
       instances_.emplace(int64_t{patches_->count()} * 4, nullptr);
     }
+    if (settings_.coarseFirst) prepareCoarse(frame, defines);
+    if (settings_.passes > 1) otherPasses_.emplace(frame, "tessellation");
+    if (settings_.reuse == PatternReuse::Soup) prepareSoup(frame, defines);
     makeVertexArray(batches_ ? batches_->instances() : *instances_);
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/batches", batches_ ? batches_->bytes() : instances_->bytes());
@@ -115,13 +147,26 @@ class RefinementPatterns : public Technique {
         buildBatches();
       }
     }
-    picture_->render(frame, [&] { draw(frame); });
+    const auto pass = [&](int number) {
+      if (!soup_) {
+        draw(frame, *program_);
+      } else if (number == 0) {
+        draw(frame, *captureProgram_, &*soup_);
+      } else {
+        soupProgram_->use();
+        soupProgram_->set("anchorToClip", frame::anchorToClip(frame));
+        soup_->drawTriangles();
+      }
+    };
+    const int others = settings_.passes - 1;
+    if (otherPasses_) otherPasses_->render(frame, others, pass);
+    picture_->render(frame, [&] { pass(others); });
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
-    const uint32_t triangles = picture_->countTriangles(frame, [&] { draw(frame); });
+    const uint32_t triangles = picture_->countTriangles(frame, [&] { draw(frame, *program_); });
     double culled = 0.0, used = 0.0;
     for (const PatchFactors& of : factors_->factors().read<PatchFactors>(0, patches_->count()))
       culled += of.segments == 0;
@@ -133,13 +178,17 @@ class RefinementPatterns : public Technique {
       for (const PatternCommand& command : commands_) patterns.insert(command.firstIndex);
       used = static_cast<double>(patterns.size());
     }
-    const double calls = batches_ ? 1.0 : static_cast<double>(commands_.size());
+    const double calls = batches_ ? 1.0 : static_cast<double>(commands_.size() + coarseCommands_.size());
+    const double soupTriangles = soup_ ? std::min(double(triangles), double(soupCapacity_)) : 0.0;
     return {{"patches_culled", culled},
+            {"patches_capped", double(factors_->countCapped(frame))},
             {"patches_left_out", double(leftOut_)},
             {"tessellated_triangles", double(triangles)},
             {"draw_calls", calls},
             {"patterns_drawn", used},
-            {"patterns_mib", double(meshes_->bytesUsed()) / 1048576.0}};
+            {"patterns_mib", double(meshes_->bytesUsed()) / 1048576.0},
+            {"soup_mib", soupTriangles * 3.0 * sizeof(TessellatedVertex) / 1048576.0},
+            {"soup_left_out", soup_ ? double(triangles) - soupTriangles : 0.0}};
   }
 
  private:
@@ -158,6 +207,7 @@ class RefinementPatterns : public Technique {
       if (settings_.adapted())
         for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domains_[i])); ++side)
           own[side] = most;
+      if (settings_.coarseFirst && most == 1) continue;
       byPattern[{domains_[i], own}].push_back(i);
     }
     commands_.clear();
@@ -183,26 +233,101 @@ class RefinementPatterns : public Technique {
       instances_->write(0, static_cast<int64_t>(instances.size()) * 4, instances.data());
   }
 
-  void draw(frame::Frame& frame) const {
+  /// Patches of each domain with the pattern of one segment a side; they do not change.
+  void prepareCoarse(frame::Frame& frame, gl::ShaderDefines defines) {
+    defines["COARSE"] = "1";
+    coarseProgram_ =
+        &frame.context().programs().get({"renderer/techniques/tessellation/patterns/pattern.vert.glsl",
+                                         "renderer/techniques/tessellation/surface.frag.glsl"},
+                                        defines);
+    std::vector<uint32_t> numbers;
+    for (const surfaces::Domain domain : {surfaces::Domain::Rectangle, surfaces::Domain::Triangle}) {
+      PatternCommand command{0, 0, 0, 0, static_cast<uint32_t>(numbers.size())};
+      for (uint32_t i = 0; i < domains_.size(); ++i)
+        if (domains_[i] == domain) numbers.push_back(i);
+      command.instances = static_cast<uint32_t>(numbers.size()) - command.firstInstance;
+      const std::optional<PatternMeshes::Mesh> mesh =
+          meshes_->meshOf(domain, {1, 1, 1, domain == surfaces::Domain::Rectangle ? 1 : 0});
+      if (command.instances == 0 || !mesh) continue;
+      command.indices = mesh->indices;
+      command.firstIndex = mesh->firstIndex;
+      command.firstVertex = mesh->firstVertex;
+      coarseCommands_.push_back(command);
+    }
+    coarseInstances_.emplace(numbers);
+  }
+
+  /// Room for twice the triangles of the first view, for which it waits.
+  void prepareSoup(frame::Frame& frame, gl::ShaderDefines defines) {
+    factors_->run(frame);
+    int64_t triangles = 0;
+    const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
+    for (size_t i = 0; i < factors.size(); ++i) {
+      if (factors[i].segments == 0) continue;
+      surfaces::Factors own{};
+      int most = 1;
+      for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domains_[i])); ++side) {
+        own[side] = static_cast<int>(factors[i].segments >> 8 * side & 255U);
+        most = std::max(most, own[side]);
+      }
+      triangles +=
+          settings_.adapted() ? 2 * int64_t{most} * most : surfaces::patternOf(domains_[i], own).triangles;
+    }
+    soupCapacity_ = 2 * std::max<int64_t>(triangles, 1);
+    soup_.emplace(3 * soupCapacity_);
+    defines["CAPTURE"] = "1";
+    captureProgram_ =
+        &frame.context().programs().get({"renderer/techniques/tessellation/patterns/pattern.vert.glsl",
+                                         "renderer/techniques/tessellation/surface.frag.glsl"},
+                                        defines);
+    soupProgram_ =
+        &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",
+                                         "renderer/techniques/tessellation/surface.frag.glsl"});
+    frame.passes().setBytesHeld("tessellation/soup", soup_->vertices().bytes());
+  }
+
+  void drawCoarse(frame::Frame& frame) const {
+    coarseProgram_->use();
+    coarseProgram_->set("anchorToClip", frame::anchorToClip(frame));
+    glVertexArrayVertexBuffer(vertexArray_, 1, coarseInstances_->id(), 0, sizeof(uint32_t));
+    issue(coarseCommands_);
+    glVertexArrayVertexBuffer(vertexArray_, 1, instances_->id(), 0, sizeof(uint32_t));
+  }
+
+  static void issue(const std::vector<PatternCommand>& commands) {
+    for (const PatternCommand& of : commands)
+      glDrawElementsInstancedBaseVertexBaseInstance(
+          GL_TRIANGLE_STRIP, static_cast<GLsizei>(of.indices), GL_UNSIGNED_INT,
+          reinterpret_cast<const void*>(uintptr_t{of.firstIndex} * 4), static_cast<GLsizei>(of.instances),
+          static_cast<GLint>(of.firstVertex), of.firstInstance);
+  }
+
+  /// `into`: stores the triangles as well.
+  void draw(frame::Frame& frame, const gl::Program& program, const VertexFeedback* into = nullptr) const {
     patches_->bindStorage();
     factors_->factors().bindStorage(kFactorsBuffer);
-    program_->use();
-    program_->set("anchorToClip", frame::anchorToClip(frame));
     glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
     glBindVertexArray(vertexArray_);
+    if (settings_.coarseFirst) drawCoarse(frame);
+    program.use();
+    program.set("anchorToClip", frame::anchorToClip(frame));
+    if (into) {
+      into->capture(GL_TRIANGLES, [&] { issueAll(); });
+    } else {
+      issueAll();
+    }
+    glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
+  }
+
+  void issueAll() const {
     if (batches_) {
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, batches_->commands().id());
       glMultiDrawElementsIndirect(GL_TRIANGLE_STRIP, GL_UNSIGNED_INT, nullptr, batches_->commandCount(),
                                   sizeof(PatternCommand));
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     } else {
-      for (const PatternCommand& of : commands_)
-        glDrawElementsInstancedBaseVertexBaseInstance(
-            GL_TRIANGLE_STRIP, static_cast<GLsizei>(of.indices), GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(uintptr_t{of.firstIndex} * 4), static_cast<GLsizei>(of.instances),
-            static_cast<GLint>(of.firstVertex), of.firstInstance);
+      issue(commands_);
     }
-    glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
   }
 
   void makeVertexArray(const gl::Buffer& instances) {
@@ -228,7 +353,13 @@ class RefinementPatterns : public Technique {
   std::optional<gl::Buffer> instances_;    // others
   std::vector<PatternCommand> commands_;
   std::vector<surfaces::Domain> domains_;
-  const gl::Program* program_ = nullptr;
+  const gl::Program *program_ = nullptr, *captureProgram_ = nullptr, *soupProgram_ = nullptr,
+                    *coarseProgram_ = nullptr;
+  std::optional<DepthPasses> otherPasses_;
+  std::optional<VertexFeedback> soup_;
+  int64_t soupCapacity_ = 0;  // triangles
+  std::optional<gl::Buffer> coarseInstances_;
+  std::vector<PatternCommand> coarseCommands_;
   size_t leftOut_ = 0;
   uint32_t vertexArray_ = 0;
 };
@@ -242,11 +373,16 @@ const RegisteredTechnique<RefinementPatterns> kRefinementPatternsRegistered{
      .needs = {"curved_surfaces"},
      .counters = {
          {"patches_culled", "Patches culled", "patches", Direction::Neither},
+         {"patches_capped", "Patches that more segments than allowed would be needed for", "patches",
+          Direction::LowerIsBetter},
          {"patches_left_out", "Patches left out for want of capacity", "patches", Direction::LowerIsBetter},
          {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
          {"draw_calls", "Draw calls", "", Direction::LowerIsBetter},
          {"patterns_drawn", "Patterns drawn", "", Direction::LowerIsBetter},
-         {"patterns_mib", "Patterns stored", "MiB", Direction::LowerIsBetter}}}};
+         {"patterns_mib", "Patterns stored", "MiB", Direction::LowerIsBetter},
+         {"soup_mib", "Triangles stored for later passes", "MiB", Direction::LowerIsBetter},
+         {"soup_left_out", "Triangles left out of later passes for want of capacity", "triangles",
+          Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques

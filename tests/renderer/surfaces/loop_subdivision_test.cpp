@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loop's subdivision, its points and the quadratic patches, against repeated subdivision.
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/surfaces/loop.h"
+#include "renderer/surfaces/loop_subdivision.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/recursion/vertex_array.h"
+#include "renderer/techniques/tessellation/surface_vertex_array.h"
 
 #include <epoxy/gl.h>
 
@@ -7,7 +7,7 @@
 
 namespace limen::techniques {
 
-SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buffer& indices) {
+SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices) {
   glCreateVertexArrays(1, &id_);
   glVertexArrayAttribFormat(id_, 0, 3, GL_FLOAT, GL_FALSE, offsetof(TessellatedVertex, position));
   glVertexArrayAttribIFormat(id_, 1, 1, GL_UNSIGNED_INT, offsetof(TessellatedVertex, material));
@@ -17,6 +17,10 @@ SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buf
     glEnableVertexArrayAttrib(id_, attribute);
   }
   glVertexArrayVertexBuffer(id_, 0, vertices.id(), 0, sizeof(TessellatedVertex));
+}
+
+SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buffer& indices)
+    : SurfaceVertexArray(vertices) {
   glVertexArrayElementBuffer(id_, indices.id());
 }
 

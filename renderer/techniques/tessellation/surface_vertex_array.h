@@ -5,9 +5,10 @@
 
 namespace limen::techniques {
 
-/// Attributes of tessellation's surface.vert.glsl from a buffer of TessellatedVertex, with indices.
+/// Attributes of surface.vert.glsl from a buffer of TessellatedVertex, with or without indices.
 class SurfaceVertexArray {
  public:
+  explicit SurfaceVertexArray(const gl::Buffer& vertices);
   SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buffer& indices);
   ~SurfaceVertexArray();
   SurfaceVertexArray(const SurfaceVertexArray&) = delete;
