@@ -106,6 +106,7 @@ PoppingPredictorGpu::PoppingPredictorGpu(gl::Context& context, glm::ivec2 sizePx
   defineEnum(defines_, "EYE_MOVEMENT", settings.eyeModel());
   defineEnum(defines_, "ADAPTATION", sourceOf(settings));
   if (settings.collapse == Collapse::Magnitude) defines_["COLLAPSE_MAGNITUDE"] = "1";
+  if (grid_.hasKink) defines_["CASTLE_KINK"] = "1";
   const bool isDkl = settings.sensitivity.isDkl();
   if (isDkl) defines_["CONTRAST_DKL"] = "1";
   if (settings.bands.isFitted() && model_.contrastLevels > 0) {
@@ -257,6 +258,10 @@ void PoppingPredictorGpu::bindResponse(const gl::Program& program, int level) {
   program.set("table.size", grid_.size);
   program.set("table.low", glm::vec2(grid_.low));
   program.set("table.per", glm::vec2(grid_.per));
+  if (grid_.hasKink) {
+    program.set("kinkRow", static_cast<float>(grid_.kinkRow));
+    program.set("perAboveKink", static_cast<float>(grid_.perAbove));
+  }
   if (partTable_) {
     partWeights_->bindTexture(kResponsePartWeightsUnit);
     program.set("partTable.size", partTable_->size);

@@ -17,10 +17,10 @@
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
-#include "perception/metrics/row_sums.h"
 #include "perception/multiscale/pyramid.h"
 #include "perception/popping/input.h"
 #include "perception/popping/sensitivity.h"
+#include "perception/popping/summed_differences.h"
 #include "perception/popping/temporal_sensitivity.h"
 #include "perception/vision/colour.h"
 #include "perception/vision/masking.h"
@@ -364,94 +364,19 @@ class Predictor {
     return out;
   }
 
-  /// Two neighbours of a row or column of level 0 in a coarser level, and the second's weight.
-  struct Place {
-    int first, second;
-    double weight;
-  };
-  static Place placeOf(int position, int level, int size) {
-    const int block = 1 << level, first = position / block;
-    return {std::min(first, size - 1), std::min(first + 1, size - 1),
-            static_cast<double>(position % block) / block};
-  }
-
   // Minkowski sum over levels and channels; weights.
   void collapse(const std::vector<Planes>& differences) {
-    const double exponent = settings_.minkowskiExponent;
-    const bool isSigned = settings_.collapse == Collapse::Signed;
-    std::vector<Planes> raised;
-    if (!isSigned)
-      for (const Planes& level : differences) {
-        raised.push_back(level);
-        for (Plane& plane : raised.back())
-          for (double& value : plane.data) value = std::pow(std::abs(value), exponent);
-      }
-    Plane jnd(width_, height_), signedJnd(width_, height_), weight(width_, height_, 1.0);
+    SummedDifferences sums = sumDifferences(differences, input_, settings_);
+    keep("jnd", {&sums.jnd});
+    keep("signed_jnd", {&sums.signedJnd});
+    keep("weight", {&sums.weight});
     result_.jnd = Image(width_, height_, 1);
-    result_.jndExact.assign(static_cast<size_t>(width_) * height_, 0.0);
-    forRowBlocks(height_, static_cast<size_t>(width_) * 400, [&](int first, int end) {
-      for (int y = first; y < end; ++y)
-        for (int x = 0; x < width_; ++x) {
-          double sum = 0.0, signedSum = 0.0;
-          for (size_t i = 0; i < differences.size(); ++i) {
-            const int level = isStack_ ? 0 : static_cast<int>(i);
-            const Planes& own = differences[i];
-            const Place column = placeOf(x, level, own[0].width), row = placeOf(y, level, own[0].height);
-            const auto interpolate = [&](const Plane& plane) {
-              if (level == 0 || isStack_) return plane.at(x, y);
-              const double above = (1.0 - column.weight) * plane.at(column.first, row.first) +
-                                   column.weight * plane.at(column.second, row.first);
-              const double below = (1.0 - column.weight) * plane.at(column.first, row.second) +
-                                   column.weight * plane.at(column.second, row.second);
-              return (1.0 - row.weight) * above + row.weight * below;
-            };
-            for (size_t c = 0; c < 3; ++c) {
-              const double value = interpolate(own[c]);
-              if (value == 0.0 && isSigned) continue;
-              const double power = isSigned ? std::pow(std::abs(value), exponent) : interpolate(raised[i][c]);
-              sum += power;
-              signedSum += std::copysign(power, value);
-            }
-          }
-          const double difference = sum > 0.0 ? std::pow(sum, 1.0 / exponent) : 0.0;
-          const double w = weightAt(x, y);
-          jnd.at(x, y) = difference;
-          signedJnd.at(x, y) =
-              signedSum == 0.0 ? 0.0
-                               : std::copysign(std::pow(std::abs(signedSum), 1.0 / exponent), signedSum) * w;
-          weight.at(x, y) = w;
-          result_.jndExact[index(x, y)] = difference * w;
-          result_.jnd.at(x, y) = static_cast<float>(difference * w);
-        }
-    });
-    keep("jnd", {&jnd});
-    keep("signed_jnd", {&signedJnd});
-    keep("weight", {&weight});
+    std::transform(sums.weightedJnd.data.begin(), sums.weightedJnd.data.end(), result_.jnd.data.begin(),
+                   [](double value) { return static_cast<float>(value); });
     if (wanted_.count("weighted_jnd")) result_.stages["weighted_jnd"] = result_.jnd;
-    const double pixels = static_cast<double>(jnd.data.size());
-    const auto mean = [&](const double* values) {
-      return sumRows(height_, static_cast<size_t>(width_),
-                     [&](int y) {
-                       CompensatedSum row;
-                       for (int x = 0; x < width_; ++x) row.add(values[index(x, y)]);
-                       return row.value();
-                     }) /
-             pixels;
-    };
-    result_.summary.meanJnd = mean(result_.jndExact.data());
-    result_.summary.signedMeanJnd = mean(signedJnd.data.data());
-  }
-
-  double weightAt(int x, int y) const {
-    double weight = 1.0;
-    const auto apply = [&](const Image& map) {
-      if (map.data.empty()) return;
-      const double value = map.at(x, y);
-      if (std::isfinite(value)) weight *= std::clamp(value, 0.0, 1.0);
-    };
-    if (settings_.usesDisocclusion()) apply(input_.disocclusion);
-    if (settings_.usesFlicker()) apply(input_.flicker);
-    return weight;
+    result_.summary.meanJnd = meanOf(sums.weightedJnd);
+    result_.summary.signedMeanJnd = meanOf(sums.signedJnd);
+    result_.jndExact = std::move(sums.weightedJnd.data);
   }
 
   void findRegionsAndSum() {

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "experiments/base/text.h"
+#include "perception/popping/gpu/popping_bindings.h"
 #include "perception/popping/sensitivity.h"
 #include "perception/popping/temporal_sensitivity.h"
+#include "perception/vision/castle_csf.h"
 
 namespace limen::perception {
 namespace {
@@ -36,6 +38,13 @@ double darkest(const PoppingSettings& settings, const DisplayProfile& display) {
   const auto* fixed = std::get_if<FixedAdaptation>(&settings.adaptation);
   const double least = fixed ? fixed->luminanceCdM2 : display.blackLevelCdM2();
   return std::clamp(0.99 * least, kTableDarkest, 0.5 * kTableBrightest);
+}
+
+bool isCastle(const PoppingSettings& settings) {
+  const SensitivitySettings& s = settings.sensitivity;
+  return std::holds_alternative<TemporalChannels>(settings.temporal) ||
+         s.achromatic.csf.name.starts_with("castlecsf") || s.redGreen.csf.name.starts_with("castlecsf") ||
+         s.blueYellow.csf.name.starts_with("castlecsf");
 }
 
 /// Those at the bands' peaks, however weights are chosen.
@@ -93,7 +102,8 @@ TemporalTables makeTemporalTables(const PoppingModel& model, const DisplayProfil
   forRowBlocks(px.y, static_cast<size_t>(px.x) * 1000, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < px.x; ++x) {
-        const TemporalGains gains = temporal.at(y / grid.size.y, grid.velocityDegS(x), grid.luminanceCdM2(y));
+        const TemporalGains gains =
+            temporal.apart(y / grid.size.y, grid.velocityDegS(x), grid.luminanceCdM2(y));
         for (int m = 0; m < 4; ++m) {
           tables.steady.at(x, y, m) = static_cast<float>(gains[static_cast<size_t>(m)].steady);
           tables.onset.at(x, y, m) = static_cast<float>(gains[static_cast<size_t>(m)].onset);
@@ -117,7 +127,7 @@ std::string keyOf(const PoppingModel& model, const DisplayProfile& display, cons
        {settings.bands.kernelCentre, settings.minkowskiExponent, model.areaDeg2, model.widthDeg, model.scaleA,
         model.scaleRg, model.scaleBy, Kelly83Scale::of(s.redGreen.csf).referenceCdM2,
         Kelly83Scale::of(s.blueYellow.csf).referenceCdM2, grid.low.x, grid.low.y, grid.per.x, grid.per.y,
-        double(grid.size.x), double(grid.size.y)})
+        double(grid.size.x), double(grid.size.y), double(grid.kinkRow)})
     add(value);
   return key;
 }
@@ -146,13 +156,32 @@ class Cache {
 
 ResponseTableGrid::ResponseTableGrid(const PoppingSettings& settings, const DisplayProfile& display)
     : low(std::log2(slowest(settings)), std::log2(darkest(settings, display))) {
+  const glm::dvec2 perOctave = std::log10(2.0) * kTableNodesPerDecade;
   const glm::dvec2 octaves = glm::log2(glm::dvec2(kTableFastest, kTableBrightest)) - low;
-  size = glm::ivec2(glm::ceil(octaves * std::log10(2.0) * kTableNodesPerDecade)) + 1;
+  size = glm::ivec2(glm::ceil(octaves * perOctave)) + 1;
   per = glm::dvec2(size - 1) / octaves;
+  const double kink = std::log2(castleKinkCdM2()), end = std::log2(double{kPoppingKinkEndCdM2});
+  hasKink = isCastle(settings) && low.y < end;
+  if (!hasKink) return;
+  low.y = std::min(low.y, kink - 1.0 / perOctave.y);
+  const double above = std::log2(kTableBrightest) - end;
+  kinkRow = static_cast<int>(std::ceil((kink - low.y) * perOctave.y));
+  const int rowsAbove = static_cast<int>(std::ceil(above * perOctave.y));
+  per.y = kinkRow / (kink - low.y);
+  perAbove = rowsAbove / above;
+  size.y = kinkRow + kPoppingKinkNodes + rowsAbove + 1;
 }
 
 double ResponseTableGrid::velocityDegS(int column) const { return std::exp2(low.x + column / per.x); }
-double ResponseTableGrid::luminanceCdM2(int row) const { return std::exp2(low.y + row % size.y / per.y); }
+
+double ResponseTableGrid::luminanceCdM2(int row) const {
+  const int node = row % size.y, fromKink = node - kinkRow;
+  if (!hasKink || fromKink < 0) return std::exp2(low.y + node / per.y);
+  if (fromKink >= kPoppingKinkNodes)
+    return std::exp2(std::log2(double{kPoppingKinkEndCdM2}) + (fromKink - kPoppingKinkNodes) / perAbove);
+  const double kink = castleKinkCdM2(), share = static_cast<double>(fromKink) / kPoppingKinkNodes;
+  return kink * std::pow(kPoppingKinkEndCdM2 / kink, std::pow(share, 1.0 / kCastleKinkExponent));
+}
 
 std::shared_ptr<const Image> sensitivityTable(const PoppingModel& model, const DisplayProfile& display,
                                               const PoppingSettings& settings,

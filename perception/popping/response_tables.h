@@ -13,6 +13,13 @@ namespace limen::perception {
 struct ResponseTableGrid {
   glm::dvec2 low, per;  ///< log2 of the first node; nodes per octave
   glm::ivec2 size;
+  /// Whether castleCSF's kink (castleKinkCdM2()) is among the luminances. Then a node lies on it, at
+  /// `kinkRow`, and the next kPoppingKinkNodes, up to kPoppingKinkEndCdM2, are rows of OnsetTable: equal
+  /// steps of the kCastleKinkExponent-th power of the logarithm of luminance over the kink's. `perAbove`
+  /// nodes an octave follow.
+  bool hasKink = false;
+  int kinkRow = 0;
+  double perAbove = 0.0;
 
   ResponseTableGrid(const PoppingSettings& settings, const DisplayProfile& display);
   double velocityDegS(int column) const;

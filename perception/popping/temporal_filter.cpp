@@ -10,10 +10,27 @@
 namespace limen::perception {
 namespace {
 
-constexpr double kDarkest = 1e-3, kBrightest = 1e4;  // cd/m2, as castleTemporal()
+constexpr double kBrightest = 1e4;  // cd/m2, as castleTemporal()
 // Nodes of OnsetTable. The onset's response is flat below the first frequency.
 constexpr double kLowestHz = 0.01;
-constexpr int kColumns = 257, kRows = 113;
+constexpr int kColumns = 257, kRows = kCastleKinkRows;
+
+// Luminance enters the transient mechanism by a power of its best frequency alone, which is what rows are
+// equal steps of: over luminance itself the mechanism has a kink.
+double powerOfBestHz(double luminanceCdM2) {
+  return std::pow(castleTransientHz(luminanceCdM2), kCastleKinkExponent);
+}
+
+double rowPlace(double luminanceCdM2) {
+  return powerOfBestHz(luminanceCdM2) / powerOfBestHz(kBrightest) * (kRows - 1);
+}
+
+/// The inverse of rowPlace(): the best frequency grows with the logarithm of luminance.
+double luminanceOfRow(int row) {
+  const double kink = castleKinkCdM2();
+  const double share = std::pow(static_cast<double>(row) / (kRows - 1), 1.0 / kCastleKinkExponent);
+  return kink * std::pow(kBrightest / kink, share);
+}
 
 }  // namespace
 
@@ -69,8 +86,7 @@ double TemporalFilter::onset(double hz) const {
 OnsetTable::OnsetTable(CastleMechanism mechanism, double refreshHz, double windowS)
     : mechanism_(mechanism), rows_(mechanism == CastleMechanism::Transient ? kRows : 1) {
   for (int row = 0; row < rows_; ++row) {
-    const double t = rows_ == 1 ? 0.0 : static_cast<double>(row) / (rows_ - 1);
-    const TemporalFilter filter(mechanism, kDarkest * std::pow(kBrightest / kDarkest, t), refreshHz, windowS);
+    const TemporalFilter filter(mechanism, luminanceOfRow(row), refreshHz, windowS);
     highestHz_ = 0.5 * filter.rateHz();
     for (int column = 0; column < kColumns; ++column)
       values_.push_back(filter.onset(
@@ -85,8 +101,7 @@ double OnsetTable::operator()(double hz, double luminanceCdM2) const {
   if (hz > highestHz_) return response;
   const double x =
       std::log(std::max(hz, kLowestHz) / kLowestHz) / std::log(highestHz_ / kLowestHz) * (kColumns - 1);
-  const double l = std::clamp(luminanceCdM2, kDarkest, kBrightest);
-  const double y = std::log(l / kDarkest) / std::log(kBrightest / kDarkest) * (rows_ - 1);
+  const double y = rows_ == 1 ? 0.0 : rowPlace(luminanceCdM2);
   const int column = std::min(static_cast<int>(x), kColumns - 2),
             row = std::min(static_cast<int>(y), rows_ - 1);
   const int next = std::min(row + 1, rows_ - 1);

@@ -44,7 +44,10 @@ class TemporalFilter {
 };
 inline constexpr double kLeastTemporalRateHz = 240.0;
 
-/// onset() for any frequency and luminance, tabulated: bilinear over the logarithms of both.
+/// Rows of OnsetTable for the transient mechanism, from castleCSF's kink to 1e4 cd/m2.
+inline constexpr int kCastleKinkRows = 225;
+/// onset() for any frequency and luminance, tabulated: bilinear over the logarithm of frequency and, of the
+/// transient mechanism, a power of its best frequency at that luminance.
 class OnsetTable {
  public:
   OnsetTable() = default;

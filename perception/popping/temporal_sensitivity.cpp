@@ -50,6 +50,12 @@ std::array<double, kTemporalMechanisms> TemporalSensitivity::amplitudes(int leve
 }
 
 TemporalGains TemporalSensitivity::at(int level, double velocityDegS, double luminanceCdM2) const {
+  TemporalGains out = apart(level, velocityDegS, luminanceCdM2);
+  for (auto& gain : out) gain.onset = std::max(gain.steady, gain.onset);
+  return out;
+}
+
+TemporalGains TemporalSensitivity::apart(int level, double velocityDegS, double luminanceCdM2) const {
   const auto i = static_cast<size_t>(level);
   const double hz = peakCpd_[i] * velocityDegS, l = std::clamp(luminanceCdM2, kLow, kHigh);
   const double place = std::log(l / kLow) / std::log(kHigh / kLow) * (kNodes - 1);
@@ -59,7 +65,7 @@ TemporalGains TemporalSensitivity::at(int level, double velocityDegS, double lum
   for (size_t m = 0; m < kTemporalMechanisms; ++m) {
     const double amplitude = (1.0 - t) * byLevel_[i][node][m] + t * byLevel_[i][node + 1][m];
     out[m].steady = amplitude * castleTemporal(kAllTemporalMechanisms[m], hz, l);
-    out[m].onset = std::max(out[m].steady, amplitude * onsets_[m](hz, l));
+    out[m].onset = amplitude * onsets_[m](hz, l);
   }
   return out;
 }

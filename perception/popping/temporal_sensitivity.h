@@ -45,6 +45,8 @@ class TemporalSensitivity {
   TemporalSensitivity& operator=(const TemporalSensitivity&) = delete;
   /// Of level `level` at a retinal velocity and adaptation luminance; finite, >= 0.
   TemporalGains at(int level, double velocityDegS, double luminanceCdM2) const;
+  /// The same before an onset is held to what is steady, which tables cannot interpolate over.
+  TemporalGains apart(int level, double velocityDegS, double luminanceCdM2) const;
   /// Share of a level's contrast that hold blur leaves at a velocity on the screen, of which `retinalDegS` is
   /// left on the retina.
   double holdBlurAt(int level, double screenDegS, double retinalDegS) const;

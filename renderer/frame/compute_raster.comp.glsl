@@ -424,11 +424,7 @@ void main() {
   if (isKept) keptTriangles[firstKept + slot] = index;
 }
 #else
-void main() {
-  if (gl_GlobalInvocationID.x >= kRasterRowInvocations) return;
-  const uint invocation = gl_GlobalInvocationID.y * kRasterRowInvocations + gl_GlobalInvocationID.x;
-  const uint drawn = invocation / uint(SMALL_LANES), lane = invocation % uint(SMALL_LANES);
-  if (drawn >= chosenCount()) return;
+void shadeOrQueue(uint drawn, uint lane) {
   const uint index = chosenTriangle(drawn);
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
@@ -461,6 +457,18 @@ void main() {
     else
       shadeRows(t, index, first, min(first + rows, t.size.y));
   }
+}
+
+void main() {
+#ifdef LISTED
+  for (uint drawn = gl_GlobalInvocationID.x; drawn < chosenCount(); drawn += gl_NumWorkGroups.x * uint(kRasterGroup))
+    shadeOrQueue(drawn, 0u);
+#else
+  if (gl_GlobalInvocationID.x >= kRasterRowInvocations) return;
+  const uint invocation = gl_GlobalInvocationID.y * kRasterRowInvocations + gl_GlobalInvocationID.x;
+  const uint drawn = invocation / uint(SMALL_LANES);
+  if (drawn < chosenCount()) shadeOrQueue(drawn, invocation % uint(SMALL_LANES));
+#endif
 }
 #endif
 #endif

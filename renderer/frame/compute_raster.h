@@ -38,6 +38,7 @@ struct DepthPeel {
 struct ListedTriangles {
   const gl::Buffer &vertices, &indices;
   const gl::Buffer& count;  ///< RasterCount (frame_bindings.h)
+  int64_t most;             ///< for which there is room
 };
 
 /// How ComputeRaster finds the triangle that each pixel sees.
@@ -75,7 +76,7 @@ class ComputeRaster {
 
   /// `clip` maps positions relative to the scene's anchor to clip space with z = near, w = distance.
   void draw(const Geometry& geometry, const glm::mat4& clip, double near, const DepthPeel& peel = {}) const;
-  /// An indirect dispatch: the host need not know how many there are. One invocation a triangle.
+  /// The host need not know how many there are. One invocation a triangle.
   void drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const;
 
   const gl::Texture& depth() const { return *depth_; }  ///< R32F

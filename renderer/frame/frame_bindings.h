@@ -52,13 +52,13 @@ struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the ba
 #ifdef __cplusplus
 static_assert(sizeof(RasterQueueHeader) == 16);
 #endif
-// Triangles that the GPU has listed itself, and an indirect dispatch over them.
+// Triangles that the GPU has listed itself.
 struct RasterCount {  // std430
-  uint groupsX, groupsY, groupsZ;
   uint triangles;
+  uint unused0, unused1, unused2;
 };
 #ifdef __cplusplus
-static_assert(sizeof(RasterCount) == 16 && offsetof(RasterCount, triangles) == 12);
+static_assert(sizeof(RasterCount) == 16);
 #endif
 const int kRasterGroup = 64;
 const uint kRasterCountBuffer = 7u;

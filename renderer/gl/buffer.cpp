@@ -40,8 +40,13 @@ void Buffer::write(int64_t offset, int64_t bytes, const void* data) const {
 }
 
 void Buffer::readBytes(int64_t offset, int64_t bytes, void* out) const {
+  if (bytes <= 0) return;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetNamedBufferSubData(id_, offset, bytes, out);
+  // From a copy: drivers may move a buffer that the host reads into its memory, where shaders are slow to
+  // reach it.
+  const Buffer copy(bytes, nullptr);
+  glCopyNamedBufferSubData(id_, copy.id_, offset, 0, bytes);
+  glGetNamedBufferSubData(copy.id_, 0, bytes, out);
 }
 
 }  // namespace limen::gl

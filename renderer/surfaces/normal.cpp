@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "renderer/surfaces/bernstein.h"
+
 namespace limen::surfaces {
 namespace {
 
@@ -29,6 +31,18 @@ bool degenerate(glm::dvec3 a, glm::dvec3 b, glm::dvec3 cross, double diagonal, d
   // Written so that a NaN counts as degenerate.
   return !(lengthA > tolerance * diagonal && lengthB > tolerance * diagonal &&
            glm::length(cross) > tolerance * lengthA * lengthB);
+}
+
+glm::dvec3 fieldAt(const PatchSet& set, const Patch& patch, const DomainPoint& at) {
+  const glm::dvec3* const normals = set.normals.data() + patch.firstNormal;
+  const int n = patch.normalDegree;
+  if (patch.domain == Domain::Triangle) return triangleJet(n, normals, at, Order::Position).p;
+  const Basis u = bernstein(n, at.u, at.restU), v = bernstein(n, at.v, at.restV);
+  glm::dvec3 out(0.0);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      out += u[static_cast<size_t>(i)] * v[static_cast<size_t>(j)] * normals[i + (n + 1) * j];
+  return out;
 }
 
 glm::dvec3 cornerPlane(const PatchSet& set, const Patch& patch) {
@@ -76,8 +90,7 @@ SurfaceNormal geometricNormal(const PatchSet& set, const Patch& patch, const Dom
 SurfaceNormal normalAt(const PatchSet& set, const Patch& patch, const DomainPoint& at,
                        const NormalSettings& settings) {
   if (patch.normalDegree > 0) {
-    const glm::dvec3 field =
-        triangleJet(patch.normalDegree, set.normals.data() + patch.firstNormal, at, Order::Position).p;
+    const glm::dvec3 field = fieldAt(set, patch, at);
     if (usable(field)) return {glm::normalize(field), NormalRung::Field};
   }
   return geometricNormal(set, patch, at, settings);

@@ -5,12 +5,17 @@
 
 namespace limen::surfaces {
 
-Patch& addRectangle(PatchSet& set, int degreeU, int degreeV, std::span<const glm::dvec4> points) {
+Patch& addRectangle(PatchSet& set, int degreeU, int degreeV, std::span<const glm::dvec4> points,
+                    int normalDegree, std::span<const glm::dvec3> normals) {
   Patch patch;
   patch.degreeU = static_cast<uint8_t>(degreeU), patch.degreeV = static_cast<uint8_t>(degreeV);
+  patch.normalDegree = static_cast<uint8_t>(normalDegree);
   patch.firstPoint = static_cast<uint32_t>(set.points.size());
+  patch.firstNormal = static_cast<uint32_t>(set.normals.size());
   assert(points.size() == static_cast<size_t>(patch.points()));
+  assert(normals.size() == static_cast<size_t>(patch.normals()));
   set.points.insert(set.points.end(), points.begin(), points.end());
+  set.normals.insert(set.normals.end(), normals.begin(), normals.end());
   return set.patches.emplace_back(patch);
 }
 

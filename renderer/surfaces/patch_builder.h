@@ -12,8 +12,10 @@ inline glm::dvec4 weighted(glm::dvec3 p, double weight = 1.0) {
   return weight == 0.0 ? glm::dvec4(p, 0.0) : glm::dvec4(p * weight, weight);
 }
 
-/// Adds a patch whose (degreeU + 1) (degreeV + 1) control points lie in the order of patch_set.h.
-Patch& addRectangle(PatchSet& set, int degreeU, int degreeV, std::span<const glm::dvec4> points);
+/// Adds a patch whose (degreeU + 1) (degreeV + 1) control points lie in the order of patch_set.h; `normals`
+/// may be empty.
+Patch& addRectangle(PatchSet& set, int degreeU, int degreeV, std::span<const glm::dvec4> points,
+                    int normalDegree = 0, std::span<const glm::dvec3> normals = {});
 
 /// Adds a triangle of the given degree; `normals` may be empty.
 Patch& addTriangle(PatchSet& set, int degree, std::span<const glm::dvec4> points, int normalDegree = 0,

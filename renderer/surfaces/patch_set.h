@@ -33,16 +33,21 @@ struct Neighbour {
 struct Patch {
   Domain domain = Domain::Rectangle;
   uint8_t degreeU = 3, degreeV = 3;  ///< 1..kMaxDegree; of a triangle both are its degree
-  uint8_t normalDegree = 0;  ///< of a triangle's normal field (PN triangles), 1 or 2; 0: from the geometry
+  /// Of the normal field: of a triangle (PN triangles) 1 or 2, of a rectangle 5 along both directions; 0:
+  /// normals come from the geometry.
+  uint8_t normalDegree = 0;
   uint32_t firstPoint = 0;
-  uint32_t firstNormal =
-      0;              ///< in PatchSet::normals, if normalDegree > 0; in the order of a triangle's points
-  uint32_t part = 0;  ///< of Scene::parts
+  uint32_t firstNormal = 0;  ///< in PatchSet::normals, if normalDegree > 0; in the order of points
+  uint32_t part = 0;         ///< of Scene::parts
 
   int points() const {
     return domain == Domain::Rectangle ? (degreeU + 1) * (degreeV + 1) : (degreeU + 1) * (degreeU + 2) / 2;
   }
-  int normals() const { return normalDegree ? (normalDegree + 1) * (normalDegree + 2) / 2 : 0; }
+  int normals() const {
+    if (normalDegree == 0) return 0;
+    return (normalDegree + 1) * (domain == Domain::Rectangle ? normalDegree + 1 : normalDegree + 2) /
+           (domain == Domain::Rectangle ? 1 : 2);
+  }
 };
 
 /// Curved surfaces of a scene, as patches that know their neighbours.

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
-#include <tuple>
 
-#include "renderer/surfaces/blossom.h"
-#include "renderer/surfaces/normal.h"
+#include "renderer/surfaces/central_differences.h"
+#include "renderer/surfaces/path_refinement.h"
+#include "renderer/surfaces/refined_parts.h"
 
 namespace limen::surfaces {
 namespace {
@@ -16,141 +14,16 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// A part of a patch's domain: counter-clockwise corners, 3 of a triangle and 4 of a rectangle. Coordinates
-/// of the whole; of a triangle (u, v) with w the rest.
-struct Part {
-  uint32_t patch = 0;
-  int steps = 0;
-  std::array<dvec2, 4> corners{};
-  std::array<bool, 4> straight{};  ///< sides that are replaced by their chord, or part of it
-};
-
-dvec3 barycentric(dvec2 p) { return {p.x, p.y, 1.0 - p.x - p.y}; }
-
-/// Patches on the screen: homogeneous control points in pixels from the picture's middle.
-class ScreenPatches {
- public:
-  ScreenPatches(const PatchSet& set, const SurfaceView& view) : set_(set), view_(view) {
-    points_.reserve(set.points.size());
-    for (const glm::dvec4& p : set.points) {
-      const dvec3 q = dvec3(p) - p.w * view.eye;
-      points_.emplace_back(view.pxAtDistance * glm::dot(view.right, q),
-                           view.pxAtDistance * glm::dot(view.up, q), glm::dot(view.forward, q));
-    }
-  }
-
-  const Patch& patchOf(const Part& part) const { return set_.patches[part.patch]; }
-
-  std::span<const dvec3> pointsOf(const Part& part, std::array<dvec3, kMostPoints>& out) const {
-    const Patch& patch = patchOf(part);
-    const dvec3* from = points_.data() + patch.firstPoint;
-    if (patch.domain == Domain::Triangle) {
-      trianglePart(patch.degreeU, from,
-                   {barycentric(part.corners[0]), barycentric(part.corners[1]), barycentric(part.corners[2])},
-                   out.data());
-    } else {
-      rectanglePart(patch.degreeU, patch.degreeV, from, {part.corners[0], part.corners[2]}, out.data());
-    }
-    return {out.data(), static_cast<size_t>(patch.points())};
-  }
-
-  bool isBehind(std::span<const dvec3> points) const {
-    return std::any_of(points.begin(), points.end(), [&](const dvec3& p) { return p.z < view_.nearest; });
-  }
-
-  /// All to one side of the view's pyramid, or before the near plane.
-  bool isOutside(std::span<const dvec3> points) const {
-    const dvec2 half = view_.pxAtDistance * view_.tanHalf;
-    bool out[5] = {true, true, true, true, true};
-    for (const dvec3& p : points) {
-      out[0] &= p.x > half.x * p.z, out[1] &= p.x < -half.x * p.z;
-      out[2] &= p.y > half.y * p.z, out[3] &= p.y < -half.y * p.z;
-      out[4] &= p.z < view_.nearest;
-    }
-    return std::any_of(std::begin(out), std::end(out), [](bool one) { return one; });
-  }
-
- private:
-  const PatchSet& set_;
-  const SurfaceView& view_;
-  std::vector<dvec3> points_;
-};
-
-std::vector<dvec3> sideOf(const Patch& patch, std::span<const dvec3> points, int side) {
-  const int m = patch.degreeU, n = patch.degreeV;
-  std::vector<dvec3> out;
-  const auto add = [&](int index) { out.push_back(points[static_cast<size_t>(index)]); };
-  if (patch.domain == Domain::Triangle) {
-    for (int i = 0; i <= m; ++i)
-      add(side == 0   ? triangleIndex(m, m - i, 0)
-          : side == 1 ? triangleIndex(m, 0, i)
-                      : triangleIndex(m, i, m - i));
-  } else if (side == 0 || side == 2) {
-    for (int i = 0; i <= m; ++i) add(side == 0 ? i : m - i + (m + 1) * n);
-  } else {
-    for (int j = 0; j <= n; ++j) add(side == 1 ? m + (m + 1) * j : (m + 1) * (n - j));
-  }
-  return out;
-}
-
-/// Which vertices there are, by a name that is the same for both patches along a common side.
-class VertexNames {
- public:
-  explicit VertexNames(const PatchSet& set) : set_(set) {}
-
-  using Name = std::tuple<uint32_t, int, double, double>;
-  Name nameOf(uint32_t patch, dvec2 at) const {
-    const Domain domain = set_.patches[patch].domain;
-    for (int side = 0; side < sidesOf(domain); ++side) {
-      const double t = along(domain, side, at);
-      if (!(t > 0.0 && t < 1.0) || patch >= set_.neighbours.size()) continue;
-      const Neighbour& other = set_.neighbours[patch][static_cast<size_t>(side)];
-      const auto there = static_cast<uint32_t>(other.patch);
-      if (other.patch < 0 || std::pair(patch, side) <= std::pair(there, other.side))
-        return {patch, side, t, 0.0};
-      return {there, other.side, other.reversed ? 1.0 - t : t, 0.0};
-    }
-    return {patch, -1, at.x, at.y};
-  }
-  void add(uint32_t patch, dvec2 at) { names_.insert(nameOf(patch, at)); }
-  bool has(uint32_t patch, dvec2 at) const { return names_.contains(nameOf(patch, at)); }
-  void clear() { names_.clear(); }
-
- private:
-  /// Place on a side in its direction; -1 off it.
-  static double along(Domain domain, int side, dvec2 at) {
-    if (domain == Domain::Triangle) {
-      const double w = 1.0 - at.x - at.y;
-      return side == 0     ? (w == 0.0 ? at.y : -1.0)
-             : side == 1   ? (at.x == 0.0 ? w : -1.0)
-             : at.y == 0.0 ? at.x
-                           : -1.0;
-    }
-    switch (side) {
-      case 0:
-        return at.y == 0.0 ? at.x : -1.0;
-      case 1:
-        return at.x == 1.0 ? at.y : -1.0;
-      case 2:
-        return at.y == 1.0 ? 1.0 - at.x : -1.0;
-      default:
-        return at.x == 0.0 ? 1.0 - at.y : -1.0;
-    }
-  }
-  const PatchSet& set_;
-  std::set<Name> names_;
-};
-
 class Refinement {
  public:
-  Refinement(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
+  Refinement(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings, dvec3 anchor,
              RecursionCounts& counts)
-      : set_(set), screen_(set, view), settings_(settings), counts_(counts) {}
+      : set_(set), screen_(set, view), settings_(settings), counts_(counts), vertices_(set, view, anchor) {}
 
   void run() {
     for (uint32_t i = 0; i < set_.patches.size(); ++i) {
       const bool triangle = set_.patches[i].domain == Domain::Triangle;
-      Part whole{i, 0, {dvec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}};
+      Part whole{i, 0, {dvec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {}};
       if (triangle) whole.corners = {dvec2{1, 0}, {0, 1}, {0, 0}, {}};
       stack_.push_back(whole);
     }
@@ -164,24 +37,27 @@ class Refinement {
     for (const Part& part : flat_) counts_.steps = std::max(counts_.steps, part.steps);
   }
 
-  TessellatedSurface surface(const SurfaceView& view, dvec3 anchor) {
-    out_.anchor = anchor, out_.view = view;
-    out_.factors.assign(set_.patches.size(), Factors{});
+  TessellatedSurface surface() {
     names_.clear();
     if (settings_.split == SplitPolicy::Restricted)
       for (const Part& part : flat_) addCorners(part);
     for (const Part& part : flat_) draw(part);
-    counts_.triangles = static_cast<int64_t>(out_.triangles.size());
-    return std::move(out_);
+    TessellatedSurface out = vertices_.take();
+    counts_.triangles = static_cast<int64_t>(out.triangles.size());
+    return out;
   }
 
  private:
   int cornersOf(const Part& part) const { return sidesOf(set_.patches[part.patch].domain); }
 
   void push(const Part& parent, std::initializer_list<dvec2> corners) {
-    Part part{parent.patch, parent.steps + 1, {}, {}};
+    Part part{parent.patch, parent.steps + 1, {}, {}, {}};
     std::copy(corners.begin(), corners.end(), part.corners.begin());
-    if (settings_.snap) inheritChords(parent, part);
+    if (parent.altered) {
+      addAlteredCorners(parent);  // ends of chords
+      part.altered = alteredPart(parent, part);
+    }
+    if (settings_.cracks != CrackHandling::None) inheritChords(parent, part);
     stack_.push_back(part);
   }
 
@@ -200,6 +76,68 @@ class Refinement {
           snapped_.try_emplace({part.patch, middle.x, middle.y},
                                0.5 * (placeOf(part.patch, a) + placeOf(part.patch, b)));
       }
+    }
+  }
+
+  /// Puts the side's control points on its chord (Clark 1979). The part's interior moves along.
+  void alter(Part& part, int side) const {
+    const Patch& patch = set_.patches[part.patch];
+    auto points = std::make_shared<std::vector<glm::dvec4>>(pointsOf(part));
+    const std::vector<size_t> places = sidePlaces(patch, side);
+    const glm::dvec4 from = (*points)[places.front()], to = (*points)[places.back()];
+    for (size_t i = 1; i + 1 < places.size(); ++i) {
+      const double t = double(i) / double(places.size() - 1);
+      // Of the chord between the ends without their weights, so that its middle is that of snapped vertices.
+      (*points)[places[i]] =
+          glm::dvec4(glm::mix(dvec3(from) / from.w, dvec3(to) / to.w, t), 1.0) * (*points)[places[i]].w;
+    }
+    part.altered = points;
+  }
+
+  std::vector<glm::dvec4> pointsOf(const Part& part) const {
+    if (part.altered) return *part.altered;
+    Part whole = part;
+    const Patch& patch = set_.patches[part.patch];
+    whole.corners = {dvec2{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    if (patch.domain == Domain::Triangle) whole.corners = {dvec2{1, 0}, {0, 1}, {0, 0}, {}};
+    const glm::dvec4* from = set_.points.data() + patch.firstPoint;
+    return partOf(whole, {from, from + patch.points()}, part);
+  }
+
+  std::shared_ptr<const std::vector<glm::dvec4>> alteredPart(const Part& parent, const Part& part) const {
+    return std::make_shared<std::vector<glm::dvec4>>(partOf(parent, *parent.altered, part));
+  }
+
+  /// Control points of a part within one whose control points these are.
+  std::vector<glm::dvec4> partOf(const Part& outer, const std::vector<glm::dvec4>& points,
+                                 const Part& part) const {
+    const Patch& patch = set_.patches[part.patch];
+    std::vector<glm::dvec4> out(points.size());
+    if (patch.domain == Domain::Rectangle) {
+      const dvec2 low = outer.corners[0], extent = outer.corners[2] - low;
+      rectanglePart(patch.degreeU, patch.degreeV, points.data(),
+                    {(part.corners[0] - low) / extent, (part.corners[2] - low) / extent}, out.data());
+      return out;
+    }
+    const dvec2 a = outer.corners[0] - outer.corners[2], b = outer.corners[1] - outer.corners[2];
+    const double det = a.x * b.y - a.y * b.x;
+    TrianglePart inner;
+    for (size_t c = 0; c < 3; ++c) {
+      const dvec2 p = part.corners[c] - outer.corners[2];
+      const double u = (p.x * b.y - p.y * b.x) / det, v = (a.x * p.y - a.y * p.x) / det;
+      inner[c] = {u, v, 1.0 - u - v};
+    }
+    trianglePart(patch.degreeU, points.data(), inner, out.data());
+    return out;
+  }
+
+  /// Corners of altered parts lie where their own control points are, if no chord has them already.
+  void addAlteredCorners(const Part& part) {
+    const Patch& patch = set_.patches[part.patch];
+    for (int side = 0; side < cornersOf(part); ++side) {
+      const dvec2 at = onSide(part, side, 0.0);
+      const glm::dvec4 p = (*part.altered)[sidePlaces(patch, side).front()];
+      snapped_.try_emplace({part.patch, at.x, at.y}, dvec3(p) / p.w);
     }
   }
 
@@ -233,13 +171,17 @@ class Refinement {
                     : rectangleFlatness(settings_.flatness, patch.degreeU, patch.degreeV, points)) >
                settings_.tolerancePx;
     }
-    for (size_t side = 0; side < static_cast<size_t>(sides) && settings_.snap; ++side) {
+    for (size_t side = 0; side < static_cast<size_t>(sides) && settings_.cracks != CrackHandling::None;
+         ++side) {
+      if (settings_.cracks == CrackHandling::Alter && !bent[side] && !part.straight[side])
+        alter(part, static_cast<int>(side));
       part.straight[side] |= !bent[side];
       bent[side] &= !part.straight[side];
     }
     const bool any = inside || std::any_of(bent.begin(), bent.begin() + sides, [](bool one) { return one; });
     if (!any || part.steps >= settings_.mostSteps) {
       counts_.cutShort += any;
+      if (part.altered) addAlteredCorners(part);
       flat_.push_back(part);
       return;
     }
@@ -343,23 +285,8 @@ class Refinement {
     }
   }
 
-  uint32_t vertex(uint32_t patch, dvec2 at) {
-    const auto [found, fresh] =
-        vertices_.try_emplace({patch, at.x, at.y}, static_cast<uint32_t>(out_.positions.size()));
-    if (fresh) {
-      const Patch& shape = set_.patches[patch];
-      const DomainPoint place = domainPoint(shape.domain, at.x, at.y);
-      out_.positions.emplace_back(placeOf(patch, at) - out_.anchor);
-      out_.normals.emplace_back(normalAt(set_, shape, place).direction);
-      out_.parameters.push_back(place);
-      out_.patches.push_back(patch);
-    }
-    return found->second;
-  }
-
   void draw(const Part& part) {
     const int count = cornersOf(part);
-    out_.factors[part.patch].fill(1);  // drawn
     std::vector<dvec2> outline;
     for (int side = 0; side < count; ++side) {
       outline.push_back(onSide(part, side, 0.0));
@@ -368,7 +295,8 @@ class Refinement {
         outline.push_back(middle);
     }
     const auto triangle = [&](dvec2 a, dvec2 b, dvec2 c) {
-      out_.triangles.emplace_back(vertex(part.patch, a), vertex(part.patch, b), vertex(part.patch, c));
+      const auto vertex = [&](dvec2 at) { return vertices_.add(part.patch, at, placeOf(part.patch, at)); };
+      vertices_.addTriangle(part.patch, {vertex(a), vertex(b), vertex(c)});
     };
     const size_t n = outline.size();
     if (count == 4 && n > 4) {
@@ -409,8 +337,7 @@ class Refinement {
   RecursionCounts& counts_;
   std::vector<Part> stack_, flat_;
   VertexNames names_{set_};
-  TessellatedSurface out_;
-  std::map<std::tuple<uint32_t, double, double>, uint32_t> vertices_;
+  SurfaceVertices vertices_;
   std::map<std::tuple<uint32_t, double, double>, dvec3> snapped_;  ///< places on chords
 };
 
@@ -419,9 +346,13 @@ class Refinement {
 TessellatedSurface refined(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
                            glm::dvec3 anchor, RecursionCounts* counts) {
   RecursionCounts own;
-  Refinement refinement(set, view, settings, counts ? *counts : own);
+  RecursionCounts& used = counts ? *counts : own;
+  if (settings.split == SplitPolicy::Paths) return refinedAlongPaths(set, view, settings, anchor, used);
+  if (settings.split == SplitPolicy::CentralDifferences)
+    return refinedByCentralDifferences(set, view, settings, anchor, used);
+  Refinement refinement(set, view, settings, anchor, used);
   refinement.run();
-  return refinement.surface(view, anchor);
+  return refinement.surface();
 }
 
 }  // namespace limen::surfaces

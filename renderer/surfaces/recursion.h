@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Recursive refinement of patches until each part is flat on the screen, on the CPU in double precision
-// (Schwarz 2009, section 7.2; SC-37, 38, 40 to 42).
+// (Schwarz 2009, section 7.2; SC-37 to 43, 46).
 #pragma once
 
 #include "renderer/surfaces/flatness.h"
@@ -12,14 +12,29 @@ enum class SplitPolicy {
   Halves,    ///< rectangle: into two, by the sides that are not flat; triangle: at each side that is not flat
   Quarters,  ///< into four
   Mixed,     ///< rectangle: into four if sides of both directions are not flat, otherwise as Halves
-  Restricted  ///< Quarters with neighbours that differ by one level at most: restricted quadtree, red-green
-              ///< triangles
+  Restricted,  ///< Quarters with neighbours that differ by one level at most: restricted quadtree, red-green
+               ///< triangles
+  Paths,       ///< at samples of curves across the surface: see path_refinement.h
+  CentralDifferences  ///< bicubic rectangles into halves: see central_differences.h
 };
-constexpr EnumNames<SplitPolicy, 4> enumNames(SplitPolicy) {
+constexpr EnumNames<SplitPolicy, 6> enumNames(SplitPolicy) {
   return {{{{SplitPolicy::Halves, "halves"},
             {SplitPolicy::Quarters, "quarters"},
             {SplitPolicy::Mixed, "mixed"},
-            {SplitPolicy::Restricted, "restricted"}}}};
+            {SplitPolicy::Restricted, "restricted"},
+            {SplitPolicy::Paths, "paths"},
+            {SplitPolicy::CentralDifferences, "central_differences"}}}};
+}
+
+/// What becomes of a side that is flat, whatever the part beyond does. T-vertices remain, cracks do not
+/// (section 7.2.4; SC-43).
+enum class CrackHandling {
+  None,
+  Snap,  ///< later vertices on it lie on its chord; the surface within stays as it is
+  Alter  ///< its control points are put on the chord, and the part with them (Clark 1979)
+};
+constexpr EnumNames<CrackHandling, 3> enumNames(CrackHandling) {
+  return {{{{CrackHandling::None, "none"}, {CrackHandling::Snap, "snap"}, {CrackHandling::Alter, "alter"}}}};
 }
 
 struct RecursionSettings {
@@ -28,9 +43,7 @@ struct RecursionSettings {
   double tolerancePx = 0.5;
   int mostSteps = 14;
   bool cull = true;  ///< parts outside the view are left out
-  /// Once a side is flat, vertices on it lie on its chord, whatever the part beyond does: T-vertices remain,
-  /// cracks do not (section 7.2.4; SC-43).
-  bool snap = false;
+  CrackHandling cracks = CrackHandling::None;
 };
 
 struct RecursionCounts {

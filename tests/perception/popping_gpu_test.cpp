@@ -1,153 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <epoxy/gl.h>
-
-#include <algorithm>
 #include <limits>
-#include <optional>
+#include <map>
 
 #include "experiments/base/error.h"
-#include "perception/popping/popping_gpu.h"
-#include "perception/popping/weights.h"
-#include "perception/popping/weights_gpu.h"
-#include "tests/perception/popping_images.h"
-#include "tests/renderer/gl/gl_fixture.h"
+#include "tests/perception/popping_gpu_fixture.h"
 
 namespace limen::perception {
 namespace {
-
-using gl::Format;
-using gl::Texture;
-
-/// Textures of an input.
-struct Upload {
-  std::optional<Texture> textures[6];
-  PoppingGpuInput input;
-
-  static Texture upload(const Image& image, int channels) {
-    Image padded(image.width, image.height, channels, 1.0F);
-    for (size_t p = 0; p < image.pixels(); ++p)
-      for (int c = 0; c < std::min(channels, image.channels); ++c)
-        padded.data[p * static_cast<size_t>(channels) + static_cast<size_t>(c)] =
-            image.data[p * static_cast<size_t>(image.channels) + static_cast<size_t>(c)];
-    Texture texture(channels == 1   ? Format::R32F
-                    : channels == 2 ? Format::RG32F
-                                    : Format::RGBA32F,
-                    {image.width, image.height});
-    texture.write(padded);
-    return texture;
-  }
-
-  explicit Upload(const PoppingInput& in) {
-    const Image* images[6] = {
-        &in.actual,       &in.predicted, &in.actualDisplacement, &in.predictedDisplacement,
-        &in.disocclusion, &in.flicker};
-    const int channels[6] = {in.actual.channels < 3 ? 1 : 4, in.actual.channels < 3 ? 1 : 4, 2, 2, 1, 1};
-    const Texture** slots[6] = {
-        &input.actual,       &input.predicted, &input.actualDisplacement, &input.predictedDisplacement,
-        &input.disocclusion, &input.flicker};
-    for (int i = 0; i < 6; ++i) {
-      if (images[i]->data.empty()) continue;
-      textures[i].emplace(upload(*images[i], channels[i]));
-      *slots[i] = &*textures[i];
-    }
-    input.linear = in.linear;
-  }
-};
-
-class PoppingGpu : public gl::GlTest {
- protected:
-  struct Run {
-    Image jnd;
-    RegionMap regions;
-    PoppingPredictorGpu::Counts counts;
-  };
-  static Run onGpu(const PoppingInput& in, const PoppingSettings& settings = {},
-                   const DisplayProfile& display = studyDisplay()) {
-    const Upload upload(in);
-    PoppingPredictorGpu predictor(context(), {in.actual.width, in.actual.height}, display, settings,
-                                  in.isSwitch);
-    predictor.run(upload.input);
-    return {predictor.jnd().read(), predictor.readRegions(), predictor.readCounts()};
-  }
-
-  /// Least threshold from `from` on with no pixel of the map within 2e-4 of its value. Single precision
-  /// leaves such a pixel on either side, and one pixel can join two regions.
-  static double thresholdBetweenPixels(const std::vector<double>& jnd, double from) {
-    std::vector<double> sorted = jnd;
-    std::sort(sorted.begin(), sorted.end());
-    for (double threshold = from;; threshold *= 1.0001) {
-      const auto above = std::lower_bound(sorted.begin(), sorted.end(), threshold * (1.0 - 2e-4));
-      if (above == sorted.end() || *above > threshold * (1.0 + 2e-4)) return threshold;
-    }
-  }
-
-  /// Difference map within 0.1 % (from 0.1 JND on; 0.0001 JND below) of the reference in double precision,
-  /// and the same regions, at a threshold between the pixels' values.
-  static PoppingResult expectReference(const PoppingInput& in, const std::string& what,
-                                       PoppingSettings settings = {},
-                                       const DisplayProfile& display = studyDisplay()) {
-    SCOPED_TRACE(what);
-    PoppingResult reference = predictPopping(in, display, settings);
-    const double threshold = thresholdBetweenPixels(reference.jndExact, settings.regions.thresholdJnd);
-    EXPECT_LT(threshold, 1.05 * settings.regions.thresholdJnd);
-    if (threshold != settings.regions.thresholdJnd) {
-      settings.regions.thresholdJnd = threshold;
-      reference = predictPopping(in, display, settings);
-    }
-    const Run run = onGpu(in, settings, display);
-    EXPECT_EQ(run.jnd.data.size(), reference.jndExact.size());
-    double worst = 0.0;
-    int64_t bad = 0;
-    for (size_t p = 0; p < reference.jndExact.size(); ++p) {
-      const double exact = reference.jndExact[p], got = run.jnd.data[p];
-      if (!std::isfinite(got)) ++bad;
-      worst = std::max(worst, std::abs(got - exact) / std::max(exact, 0.1));
-    }
-    EXPECT_EQ(bad, 0);
-    EXPECT_LT(worst, 1e-3);
-    EXPECT_EQ(run.counts.flushedInputs, reference.flushedInputs);
-    EXPECT_EQ(run.counts.guardedContrasts, reference.guardedContrasts);
-    largest_ = std::max(largest_, worst);
-    // The same map gives the same regions, and so do both maps.
-    const std::vector<double> asDouble(run.jnd.data.begin(), run.jnd.data.end());
-    std::vector<uint8_t> seeds;
-    if (settings.regions.seeds == SeedRule::ColourDiffers) {
-      seeds.resize(asDouble.size());
-      for (size_t p = 0; p < seeds.size(); ++p) {
-        const auto channels = static_cast<size_t>(in.actual.channels);
-        for (size_t c = 0; c < std::min<size_t>(channels, 3); ++c) {
-          const float a = in.actual.data[p * channels + c], b = in.predicted.data[p * channels + c];
-          if ((std::isfinite(a) ? a : 0.0F) != (std::isfinite(b) ? b : 0.0F)) seeds[p] = 1;
-        }
-      }
-    }
-    expectSameRegions(run.regions, findRegions(asDouble, seeds, in.actual.width, in.actual.height, settings),
-                      1e-5);
-    expectSameRegions(run.regions, reference.regions, 5e-3);
-    return reference;
-  }
-
-  static void expectSameRegions(const RegionMap& got, const RegionMap& expected, double tolerance) {
-    EXPECT_EQ(got.labels, expected.labels);
-    ASSERT_EQ(got.regions.size(), expected.regions.size());
-    for (size_t i = 0; i < got.regions.size(); ++i) {
-      const PoppingRegion &a = got.regions[i], &b = expected.regions[i];
-      EXPECT_EQ(a.label, b.label);
-      EXPECT_EQ(a.sizePx, b.sizePx);
-      EXPECT_EQ(a.least, b.least);
-      EXPECT_EQ(a.most, b.most);
-      EXPECT_NEAR(a.sigma, b.sigma, tolerance * b.sigma);
-      EXPECT_NEAR(a.largestJnd, b.largestJnd, tolerance * b.largestJnd);
-      EXPECT_NEAR(a.centroidPx.x, b.centroidPx.x, 1e-9);
-      EXPECT_NEAR(a.centroidPx.y, b.centroidPx.y, 1e-9);
-      EXPECT_EQ(a.coverage, b.coverage);
-    }
-  }
-
-  inline static double largest_ = 0.0;
-};
 
 TEST_F(PoppingGpu, SwitchesAgreeOverTime) {
   PoppingInput in = linearPair(sceneImage(200, 150, 0.45), sceneImage(200, 150, 0.452));
@@ -178,7 +37,7 @@ TEST_F(PoppingGpu, SwitchesAgreeOverTime) {
   settings.temporal = SingleFrame{};
   in.predictedDisplacement = in.actualDisplacement;
   expectReference(in, "single frame", settings);
-  const Upload upload(in);
+  const PoppingUpload upload(in);
   PoppingPredictorGpu predictor(context(), {200, 150}, studyDisplay(), {}, true);
   predictor.run(upload.input);
   const Image first = predictor.jnd().read();
@@ -274,7 +133,7 @@ TEST_F(PoppingGpu, SwappingFramesLeavesTheMap) {
 
 TEST_F(PoppingGpu, RepeatsToTheByte) {
   const PoppingInput in = linearPair(noiseImage(200, 150, 3, 1), noiseImage(200, 150, 3, 2));
-  const Upload upload(in);
+  const PoppingUpload upload(in);
   PoppingPredictorGpu predictor(context(), {200, 150}, studyDisplay());
   predictor.run(upload.input);
   const std::vector<float> first = predictor.jnd().read().data;
@@ -359,7 +218,7 @@ TEST_F(PoppingGpu, EveryStageMatchesTheReference) {
     for (const bool isSwitch : {false, true}) {
       in.isSwitch = isSwitch;
       const PoppingResult reference = predictPopping(in, studyDisplay(), settings, options);
-      const Upload upload(in);
+      const PoppingUpload upload(in);
       PoppingPredictorGpu predictor(context(), {96, 80}, studyDisplay(), settings, isSwitch);
       predictor.run(upload.input);
       const std::vector<std::string> stages = poppingStages(predictor.model());
@@ -384,129 +243,6 @@ TEST_F(PoppingGpu, EveryStageMatchesTheReference) {
       EXPECT_THROW(predictor.debugImage("lms", upload.input), Error);
       EXPECT_EQ(predictor.readCounts().guardedContrasts, 0U);
     }
-}
-
-// Shapes that union-find by tiles of 32 may get wrong: combs, spirals, a diagonal through tiles' corners, a
-// full image, isolated pixels, noise of every density.
-TEST_F(PoppingGpu, RegionsMatchFloodFill) {
-  const int w = 150, h = 101;
-  std::vector<std::vector<double>> maps;
-  const auto make = [&](const auto& on) {
-    std::vector<double> map(static_cast<size_t>(w) * h, 0.5);
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x)
-        if (on(x, y)) map[static_cast<size_t>(y) * w + x] = 2.0 + 0.01 * ((x * 7 + y * 3) % 100);
-    maps.push_back(map);
-  };
-  make([](int, int) { return true; });
-  make([](int, int) { return false; });
-  make([](int x, int y) { return x == y; });
-  make([](int x, int y) { return x % 2 == 0 && y % 2 == 0; });
-  make([](int x, int y) { return (x + y) % 2 == 0; });
-  make([](int x, int y) { return y == 100 || x % 2 == 0; });
-  make([](int x, int y) { return x == 0 || y % 2 == 0; });
-  make([](int x, int y) { return y % 4 == 0 || (y % 4 == 2 && false) || x == (y / 4 % 2 ? 149 : 0); });
-  make([](int x, int y) { return std::max(std::abs(x - 75), std::abs(y - 50)) % 3 == 0; });
-  make([](int x, int y) { return (x == 31 || x == 32) && (y == 31 || y == 32); });
-  make([](int x, int y) { return (x == 32 && y == 31) || (x == 31 && y == 32); });
-  for (const double density : {0.1, 0.3, 0.41, 0.5, 0.6, 0.8, 0.95}) {
-    const Image noise = noiseImage(w, h, 1, static_cast<unsigned>(100 * density));
-    make([&](int x, int y) { return noise.at(x, y) < density; });
-  }
-  const Image seedNoise = noiseImage(w, h, 1, 77);
-  for (const int connectivity : {8, 4}) {
-    PoppingSettings settings;
-    settings.regions.connectivity = connectivity;
-    RegionsGpu gpu(context(), {w, h}, settings);
-    for (size_t i = 0; i < maps.size(); ++i)
-      for (const double seedShare : {1.1, 0.02}) {
-        SCOPED_TRACE(std::to_string(i) + " seeds " + std::to_string(seedShare));
-        std::vector<uint8_t> seeds(maps[i].size());
-        std::vector<uint8_t> seedBytes;
-        for (size_t p = 0; p < seeds.size(); ++p) seeds[p] = seedNoise.data[p] < seedShare ? 1 : 0;
-        Image jnd(w, h, 1);
-        std::vector<double> rounded(maps[i].size());
-        for (size_t p = 0; p < seeds.size(); ++p)
-          jnd.data[p] = static_cast<float>(maps[i][p]), rounded[p] = double{jnd.data[p]};
-        Texture jndTexture(Format::R32F, {w, h}), seedTexture(Format::R8UI, {w, h});
-        jndTexture.write(jnd);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glTextureSubImage2D(seedTexture.id(), 0, 0, 0, w, h, GL_RED_INTEGER, GL_UNSIGNED_BYTE, seeds.data());
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-        gpu.run(jndTexture, seedTexture);
-        expectSameRegions(gpu.read(), findRegions(rounded, seeds, w, h, settings), 1e-5);
-      }
-  }
-}
-
-/// Two planes at depths 1 and 2 that meet along a slanted line, shifted.
-Image stepDepth(int w, int h, double shift) {
-  Image depth(w, h, 1);
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x)
-      depth.at(x, y) = x + 0.3 * y + shift < 0.5 * w ? 1.0F : x > w - 6 ? 0.0F : 2.0F;
-  return depth;
-}
-
-TEST_F(PoppingGpu, WeightsMatchTheReference) {
-  const int w = 90, h = 61;
-  std::vector<DisocclusionView> views(2);
-  for (int i = 0; i < 2; ++i) {
-    views[i].previousDepth = stepDepth(w, h, 2.0 * i);
-    views[i].previousDepthOfPixel = stepDepth(w, h, 5.0);
-    views[i].displacement = noiseImage(w, h, 2, 4, -7.0, 7.0);
-  }
-  PoppingSettings settings;
-  for (const int radius : {0, 1}) {
-    const DisocclusionSettings weight{.outsideVisibility = 0.25 * radius, .pcfRadiusPx = radius};
-    settings.disocclusion = weight;
-    const Image expected = disocclusionWeight(views, weight);
-    std::vector<Texture> textures;
-    for (const DisocclusionView& view : views) {
-      textures.push_back(Upload::upload(view.previousDepthOfPixel, 1));
-      textures.push_back(Upload::upload(view.displacement, 2));
-      textures.push_back(Upload::upload(view.previousDepth, 1));
-    }
-    const Texture target(Format::R32F, {w, h});
-    PoppingWeightsGpu weights(context(), settings);
-    weights.disocclusion(
-        {{&textures[0], &textures[1], &textures[2]}, {&textures[3], &textures[4], &textures[5]}}, target);
-    const Image got = target.read();
-    for (size_t p = 0; p < got.data.size(); ++p) ASSERT_NEAR(got.data[p], expected.data[p], 1e-5) << p;
-  }
-
-  FlickerInput input;
-  input.actual = sceneImage(w, h, 0.4);
-  input.predicted = noiseImage(w, h, 3, 6, 0.3, 0.5);
-  input.previousShading = noiseImage(w, h, 3, 1, 0.3, 0.5);
-  input.previousFrame = noiseImage(w, h, 3, 2, 0.3, 0.5);
-  input.displacement = noiseImage(w, h, 2, 3, -9.0, 9.0);
-  input.previousDepthOfPixel = stepDepth(w, h, 1.0);
-  input.previousDepth = stepDepth(w, h, 0.0);
-  const Texture colours[] = {Upload::upload(input.actual, 4), Upload::upload(input.predicted, 4),
-                             Upload::upload(input.previousShading, 4),
-                             Upload::upload(input.previousFrame, 4)};
-  const Texture move = Upload::upload(input.displacement, 2), target(Format::R32F, {w, h});
-  const Texture depths[] = {Upload::upload(input.previousDepthOfPixel, 1),
-                            Upload::upload(input.previousDepth, 1)};
-  PoppingWeightsGpu weights(context(), settings);
-  for (const bool compareDepth : {true, false}) {
-    if (!compareDepth) input.previousDepth = input.previousDepthOfPixel = {};
-    const Image expected = flickerWeight(input, settings.flickerSettings());
-    weights.flicker({&colours[0], &colours[1], &colours[2], &colours[3], &move,
-                     compareDepth ? &depths[0] : nullptr, compareDepth ? &depths[1] : nullptr},
-                    target);
-    const Image got = target.read();
-    int64_t other = 0, flickering = 0;
-    for (size_t p = 0; p < got.data.size(); ++p) {
-      other += got.data[p] != expected.data[p];
-      flickering += expected.data[p] < 1.0F;
-    }
-    // Only where both differences agree to single precision may the verdicts part: one pixel in 5490 would be
-    // bad luck already.
-    EXPECT_LE(other, 1);
-    EXPECT_GT(flickering, 200);
-  }
 }
 
 }  // namespace

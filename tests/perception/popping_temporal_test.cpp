@@ -117,6 +117,16 @@ TEST(TemporalFilter, WhatAppearsIsSeenAtLeastAsWellAsWhatStays) {
   }
 }
 
+TEST(TemporalFilter, OnsetsAreTabulatedOverTheKink) {
+  const OnsetTable table(CastleMechanism::Transient, 60.0, kWindow);
+  for (const double luminance :
+       {0.0111, 0.01128, 0.0113, 0.0114, 0.0116, 0.012, 0.0125, 0.013, 0.014, 0.02, 0.05}) {
+    const TemporalFilter filter(CastleMechanism::Transient, luminance, 60.0, kWindow);
+    for (const double hz : {0.0, 0.02, 0.13, 0.9, 3.3, 11.0, 47.0})
+      EXPECT_NEAR(table(hz, luminance), filter.onset(hz), 3e-3) << luminance << " cd/m2, " << hz << " Hz";
+  }
+}
+
 TEST(HoldBlur, IsTheFourierTransformOfTheHoldAperture) {
   // A grating that the eye moves over while the display holds it, averaged over the time for which it is lit.
   for (const double share : {1.0, 0.5, 0.1})

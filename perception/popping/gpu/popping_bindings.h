@@ -47,6 +47,11 @@ const uint kResponseOnsetUnit = 7u;
 const uint kResponseNormalisedUnit = 8u;
 const uint kResponsePartWeightsUnit = 9u;
 const uint kNormalisedImage = 0u;
+// castleCSF's kink in tables over luminance, see ResponseTableGrid: rows of OnsetTable, from the kink on.
+const int kPoppingKinkNodes = 147;
+const float kPoppingKinkCdM2 = 0.0112770204f;  // castleKinkCdM2()
+const float kPoppingKinkEndCdM2 = 0.049964959f;
+const float kPoppingKinkExponent = 0.1898f;  // kCastleKinkExponent
 
 // Differences of a level.
 const uint kDifferencesImage = 0u;

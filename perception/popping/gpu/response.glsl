@@ -26,6 +26,9 @@ struct TableGrid {
   vec2 low, per;  // log2 of the first node; nodes per octave
 };
 uniform TableGrid table;
+#ifdef CASTLE_KINK
+uniform float kinkRow, perAboveKink;  // of ResponseTableGrid
+#endif
 #ifdef FITTED_WEIGHTS
 // Of parts and then levels: their contrasts times these add up to a contrast at the level's peak.
 layout(binding = kResponsePartWeightsUnit) uniform sampler2D partWeights;
@@ -106,15 +109,36 @@ float luminanceAt(int frame, ivec2 pixel) {
   return mix(above, below, weight.y);
 }
 
-// Of block `block` of a table over velocity and luminance.
-vec4 tableAt(sampler2D values, TableGrid grid, float velocity, float luminance, int block) {
-  vec2 place = clamp((log2(vec2(velocity, luminance)) - grid.low) * grid.per, vec2(0.0), vec2(grid.size - 1));
+// Of block `block` of a table over velocity and luminance, at a place in nodes.
+vec4 tableAtPlace(sampler2D values, TableGrid grid, vec2 place, int block) {
+  place = clamp(place, vec2(0.0), vec2(grid.size - 1));
   ivec2 node = min(ivec2(place), grid.size - 2);
   vec2 t = place - vec2(node);
   node.y += block * grid.size.y;
   vec4 above = mix(texelFetch(values, node, 0), texelFetch(values, node + ivec2(1, 0), 0), t.x);
   vec4 below = mix(texelFetch(values, node + ivec2(0, 1), 0), texelFetch(values, node + ivec2(1, 1), 0), t.x);
   return mix(above, below, t.y);
+}
+
+vec4 tableAt(sampler2D values, TableGrid grid, float velocity, float luminance, int block) {
+  return tableAtPlace(values, grid, (log2(vec2(velocity, luminance)) - grid.low) * grid.per, block);
+}
+
+// Of a table of ResponseTableGrid.
+vec4 responseTableAt(sampler2D values, float velocity, float luminance, int block) {
+  vec2 place = (log2(vec2(velocity, luminance)) - table.low) * table.per;
+#ifdef CASTLE_KINK
+  // ln(L / kink), where it is small without the rounding of L / kink.
+  float beyond = (luminance - kPoppingKinkCdM2) / kPoppingKinkCdM2, z = beyond / (2.0 + beyond), zz = z * z;
+  float ln = beyond < 0.4 ? 2.0 * z * (1.0 + zz * (1.0 / 3.0 + zz * (1.0 / 5.0 + zz * (1.0 / 7.0 + zz / 9.0))))
+                          : log(luminance / kPoppingKinkCdM2);
+  float share = ln / log(kPoppingKinkEndCdM2 / kPoppingKinkCdM2);
+  if (share >= 1.0)
+    place.y = kinkRow + float(kPoppingKinkNodes) + (log2(luminance) - log2(kPoppingKinkEndCdM2)) * perAboveKink;
+  else if (share > 0.0)
+    place.y = kinkRow + float(kPoppingKinkNodes) * pow(share, kPoppingKinkExponent);
+#endif
+  return tableAtPlace(values, table, place, block);
 }
 
 // Opponent contrasts from those of the planes.
@@ -194,14 +218,14 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
     atPeak = fma(opponentOf((once - twice) / denominator), weights[1], atPeak);
     atPeak = fma(opponentOf((twice - coarserNext) / denominator), weights[2], atPeak);
     precise vec3 normalised =
-        atPeak * max(tableAt(sensitivities, table, velocity, luminance, level).xyz, vec3(LEAST_SENSITIVITY));
+        atPeak * max(responseTableAt(sensitivities, velocity, luminance, level).xyz, vec3(LEAST_SENSITIVITY));
 #ifdef TEMPORAL_CHANNELS
     contrasts[frame] = atPeak;
 #endif
     vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
 #else
     precise vec3 contrast = opponentOf((own.xyz - finer) / denominator) * (1.0 / gain);
-    precise vec3 normalised = contrast * tableAt(sensitivities, table, velocity, luminance, level).xyz;
+    precise vec3 normalised = contrast * responseTableAt(sensitivities, velocity, luminance, level).xyz;
 #ifdef TEMPORAL_CHANNELS
     contrasts[frame] = contrast;
 #endif
@@ -224,9 +248,11 @@ vec3 responseDifference(ivec2 pixel, int shownFrame, out Stages shown) {
   }
 #ifdef TEMPORAL_CHANNELS
   SwitchContent contents[2];
-  for (int frame = 0; frame < frameCount; ++frame)
-    contents[frame] = SwitchContent(contrasts[frame], tableAt(steadyGains, table, retinalDegS, luminances[frame], level),
-                                    tableAt(onsetGains, table, retinalDegS, luminances[frame], level));
+  for (int frame = 0; frame < frameCount; ++frame) {
+    vec4 steady = responseTableAt(steadyGains, retinalDegS, luminances[frame], level),
+         onset = responseTableAt(onsetGains, retinalDegS, luminances[frame], level);
+    contents[frame] = SwitchContent(contrasts[frame], steady, max(steady, onset));
+  }
   SwitchExtremes extremes = switchExtremes(contents, holdBlur(max(0.0, screenDegS - retinalDegS)));
 #ifdef STORE_NORMALISED
   imageStore(normalisedImage, ivec3(pixel, 0), extremes.after);

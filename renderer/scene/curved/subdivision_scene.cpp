@@ -4,6 +4,7 @@
 #include "renderer/scene/curved/patch_mesh.h"
 #include "renderer/scene/stage.h"
 #include "renderer/surfaces/acc_patches.h"
+#include "renderer/surfaces/c_patches.h"
 #include "renderer/surfaces/catmull_clark.h"
 #include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/patch_builder.h"
@@ -12,9 +13,12 @@
 namespace limen::scene {
 namespace {
 
-enum class Approximation { Acc, Qas };
-constexpr EnumNames<Approximation, 2> enumNames(Approximation) {
-  return {{{{Approximation::Acc, "acc"}, {Approximation::Qas, "qas"}}}};
+enum class Approximation { Acc, AccTangents, CPatches, Qas };
+constexpr EnumNames<Approximation, 4> enumNames(Approximation) {
+  return {{{{Approximation::Acc, "acc"},
+            {Approximation::AccTangents, "acc_tangents"},
+            {Approximation::CPatches, "c_patches"},
+            {Approximation::Qas, "qas"}}}};
 }
 
 struct SubdivisionSettings {
@@ -24,7 +28,10 @@ struct SubdivisionSettings {
     using S = SubdivisionSettings;
     static const SettingsTable<S> kTable = {
         {&S::approximation, "approximation",
-         "Bicubic patches over the quads of Catmull-Clark's surface (Loop and Schaefer 2008), or quadratic "
+         "Bicubic patches over the quads of Catmull-Clark's surface, shaded with their own normals or "
+         "with those of tangent patches (Loop and Schaefer 2008); four quartic triangles for each quad that "
+         "join smoothly (Myles, Yeo "
+         "and Peters 2008); or quadratic "
          "triangles "
          "through points of Loop's (Boubekeur and Schlick 2007)"},
         {&S::steps, "steps", {0, 4}, "steps", "Steps of subdivision before each face becomes a patch"},
@@ -48,14 +55,21 @@ surfaces::PolygonMesh triangulated(surfaces::PolygonMesh mesh) {
   return mesh;
 }
 
+surfaces::PatchSet approximated(surfaces::PolygonMesh cage, const SubdivisionSettings& settings) {
+  if (settings.approximation == Approximation::Qas)
+    return surfaces::qasPatches(surfaces::loop(triangulated(std::move(cage)), settings.steps));
+  const surfaces::PolygonMesh mesh = surfaces::catmullClark(std::move(cage), settings.steps);
+  if (settings.approximation == Approximation::CPatches) return surfaces::cPatches(mesh);
+  return surfaces::accPatches(mesh, settings.approximation == Approximation::AccTangents
+                                        ? surfaces::AccNormals::TangentPatches
+                                        : surfaces::AccNormals::Geometry);
+}
+
 /// Stands upright, 1 high, as curved/double_torus.
 Scene buildSubdivision(const SubdivisionSettings& settings) {
   surfaces::PolygonMesh cage = doubleTorusCage();
   for (glm::dvec3& p : cage.points) p = {p.x, -p.z, p.y};
-  const bool acc = settings.approximation == Approximation::Acc;
-  surfaces::PatchSet set =
-      acc ? surfaces::accPatches(surfaces::catmullClark(std::move(cage), settings.steps))
-          : surfaces::qasPatches(surfaces::loop(triangulated(std::move(cage)), settings.steps));
+  surfaces::PatchSet set = approximated(std::move(cage), settings);
   const Mesh shape = patchMesh(set, settings.tessellation);
   Bounds bounds;
   for (const glm::dvec3& p : shape.positions) bounds.extend(p);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/recursion/recursion_bindings.h"
 #include "renderer/techniques/tessellation/surface_view.h"
@@ -28,16 +29,21 @@ std::vector<RecursionPart> wholePatches(const surfaces::PatchSet& set) {
   return out;
 }
 
-DicedParts::DicedParts(frame::Frame& frame, const PatchBuffers& patches, int grid, int64_t vertexCapacity)
-    : patches_(patches), grid_(grid) {
+DicedParts::DicedParts(frame::Frame& frame, const PatchBuffers& patches, const PartSettings& settings)
+    : patches_(patches),
+      grid_(settings.grid),
+      lists_(frame::chosenRaster(settings.raster, frame.context()) == frame::Raster::Compute),
+      picture_(frame, settings.shading, "recursion",
+               lists_ ? frame::Raster::Compute : frame::Raster::Hardware),
+      listed_(int64_t{sizeof(frame::RasterCount)}, nullptr) {
   gl::ProgramCache& programs = frame.context().programs();
   const std::string folder = "renderer/techniques/recursion/queues/";
   diceProgram_ = &programs.compute(folder + "dice.comp.glsl", patches.defines());
   roundsProgram_ = &programs.compute(folder + "rounds.comp.glsl");
   drawProgram_ = &programs.get({"renderer/techniques/tessellation/compute/surface.vert.glsl",
                                 "renderer/techniques/tessellation/surface.frag.glsl"});
-  const int64_t vertices = int64_t{grid + 1} * (grid + 1), indices = 6 * int64_t{grid} * grid;
-  capacity_ = static_cast<uint32_t>(std::max<int64_t>(vertexCapacity / vertices, patches.count()));
+  const int64_t vertices = int64_t{grid_ + 1} * (grid_ + 1), indices = 6 * int64_t{grid_} * grid_;
+  capacity_ = static_cast<uint32_t>(std::max<int64_t>(settings.capacity / vertices, patches.count()));
   vertices_.emplace(capacity_ * vertices * int64_t{sizeof(TessellatedVertex)}, nullptr);
   indices_.emplace(capacity_ * indices * 4, nullptr);
   array_.emplace(*vertices_, *indices_);
@@ -48,6 +54,7 @@ void DicedParts::advance(const gl::Buffer& counters) const {
   roundsProgram_->set("partCapacity", capacity_);
   roundsProgram_->set("indicesPerPart", static_cast<uint32_t>(6 * grid_ * grid_));
   counters.bindStorage(kSplitCountersBuffer);
+  listed_.bindStorage(kListedTrianglesBuffer);
   roundsProgram_->use();
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -66,17 +73,25 @@ void DicedParts::dice(frame::Frame& frame, const gl::Buffer& parts, const gl::Bu
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counters.id());
   glDispatchComputeIndirect(offsetof(RecursionCounters, diceGroupsX));
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void DicedParts::draw(frame::Frame& frame, const gl::Buffer& counters) const {
-  drawProgram_->use();
-  drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
-  array_->bind();
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, counters.id());
-  glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                         reinterpret_cast<const void*>(offsetof(RecursionCounters, indices)));
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+void DicedParts::render(frame::Frame& frame, const gl::Buffer& parts, const gl::Buffer& counters) {
+  dice(frame, parts, counters);
+  if (lists_) {
+    picture_.renderListed(frame, {*vertices_, *indices_, listed_, indices_->bytes() / 12});
+    return;
+  }
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  picture_.render(frame, [&] {
+    drawProgram_->use();
+    drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
+    array_->bind();
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, counters.id());
+    glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(offsetof(RecursionCounters, indices)));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+  });
 }
 
 std::shared_ptr<surfaces::TessellatedSurface> DicedParts::surface(frame::Frame& frame,

@@ -2,6 +2,7 @@
 // What recursion on the GPU is told, by queues and by geometry shaders alike.
 #pragma once
 
+#include "renderer/frame/compute_raster.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
 
@@ -25,6 +26,7 @@ struct PartSettings {
   int grid = 4;
   int mostSteps = 14;
   bool cull = true;
+  frame::Raster raster = frame::Raster::Auto;
   int64_t capacity = 1 << 21;
   frame::ShadedSetting shading;
   static const SettingsTable<PartSettings>& table() {
@@ -43,6 +45,7 @@ struct PartSettings {
          "Schwarz 2009, section 7.2.5 (split and dice: 16)"},
         {&S::mostSteps, "most_steps", {0, 20}, "steps", "Splits from a patch to a part at most"},
         {&S::cull, "cull", "Leave out parts outside the view"},
+        {&S::raster, "raster", "How triangles become pixels: by the driver, or one by one in compute"},
         {&S::capacity,
          "capacity",
          {1024, 1 << 26},

@@ -40,6 +40,7 @@ const uint kSplitCountersBuffer = 3u;
 const uint kQueueBuffer = 4u;
 const uint kNextQueueBuffer = 5u;
 const uint kFinishedBuffer = 6u;
+const uint kListedTrianglesBuffer = 7u;
 // Geometry shaders: texture units, and a bit of a part's patchNumber.
 const uint kPartPointsUnit = 0u;
 const uint kPartPatchesUnit = 1u;

@@ -76,6 +76,15 @@ vec3 acrossTangents(BezierJet jet, out bool degenerate) {
 
 vec3 fieldNormal(TessellatedPatch patch_, int n, vec4 at) {
   const int first = int(patch_.firstNormal);
+  if (n == 3) {  // a rectangle's, of degree 5
+    float u[10], v[10];
+    bernsteinBasis(5, at.x, at.z, u);
+    bernsteinBasis(5, at.y, at.w, v);
+    vec3 sum = vec3(0.0);
+    for (int j = 0; j <= 5; ++j)
+      for (int i = 0; i <= 5; ++i) sum += u[i] * v[j] * patchNormals[first + i + 6 * j].xyz;
+    return sum;
+  }
   if (n == 1)
     return patchNormals[first].xyz * at.x + patchNormals[first + 1].xyz * at.y + patchNormals[first + 2].xyz * at.z;
   vec3 points[6];
@@ -119,6 +128,11 @@ TessellatedVertex vertexWith(TessellatedPatch patch_, vec4 point, vec3 normal, u
 
 // From the value and derivatives at a point.
 TessellatedVertex vertexOf(TessellatedPatch patch_, vec4 at, BezierJet jet) {
+  const int field = normalDegree(shapeOf(patch_));
+  if (field > 0) {
+    const vec3 given = fieldNormal(patch_, field, at);
+    if (dot(given, given) > 1e-20) return vertexWith(patch_, jet.p, given, kRungField);
+  }
   bool degenerate;
   vec3 normal = acrossTangents(jet, degenerate);
   uint rung = kRungTangents;

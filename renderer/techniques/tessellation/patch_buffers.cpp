@@ -9,8 +9,10 @@ namespace limen::techniques {
 namespace {
 
 uint32_t shapeOf(const surfaces::Patch& patch) {
+  // Two bits: a rectangle's field is always of degree 5.
+  const uint32_t normals = std::min<uint32_t>(patch.normalDegree, 3);
   return (patch.domain == surfaces::Domain::Rectangle ? 1U : 0U) | uint32_t{patch.degreeU} << 1 |
-         uint32_t{patch.degreeV} << 5 | uint32_t{patch.normalDegree} << 9;
+         uint32_t{patch.degreeV} << 5 | normals << 9;
 }
 
 std::vector<TessellatedPatch> recordsOf(const scene::Scene& scene) {
@@ -50,7 +52,9 @@ gl::ShaderDefines definesOf(const surfaces::PatchSet& set) {
   gl::ShaderDefines out;
   const auto isUnweighted = [](const glm::dvec4& point) { return point.w == 1.0; };
   if (std::all_of(set.points.begin(), set.points.end(), isUnweighted)) out["POLYNOMIAL"] = "1";
-  const auto isAlike = [&](const surfaces::Patch& patch) { return shapeOf(patch) == shapeOf(set.patches[0]); };
+  const auto isAlike = [&](const surfaces::Patch& patch) {
+    return shapeOf(patch) == shapeOf(set.patches[0]);
+  };
   if (!set.patches.empty() && std::all_of(set.patches.begin(), set.patches.end(), isAlike))
     out["SHAPE"] = std::to_string(shapeOf(set.patches[0])) + "u";
   return out;

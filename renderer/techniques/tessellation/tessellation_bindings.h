@@ -15,7 +15,8 @@ const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
 struct TessellatedPatch {  // std430
   uint firstPoint, firstNormal;
-  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the normals
+  uint shape;  // bit 0: rectangle; from bit 1 and 5: degrees along u and v; from bit 9: degree of the
+               // normals, 3: 5 of a rectangle
   uint material;
   ivec4 neighbours;  // of each side: of what lies along it 8 patch + 2 side + (1: it runs the other way); -1:
                      // none
@@ -67,19 +68,16 @@ const uint kRungCornerPlane = 3u;  // area vector of the corners
 const uint kRungNone = 4u;
 const int kRungs = 5;
 
-// What is written and drawn, and by how many groups. std430.
+// What is written and drawn. std430.
 struct TessellationTotals {
-  uint groupsX, groupsY, groupsZ;                                 // of vertices
-  uint indexGroupsX, indexGroupsY, indexGroupsZ;                  // of indices
-  uint vertices, patches;                                         // patches that fit
+  uint vertices, patches;        // patches that fit
+  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
   uint indices, instances, firstIndex, baseVertex, baseInstance;  // DrawElementsIndirectCommand
   uint overflow;                                                  // patches that do not fit
   uint neededVertices, neededIndices;
-  uint laneBits, indexLaneBits;  // logarithms of the numbers of invocations that share a patch
-  uint unused0, unused1;
 };
 #ifdef __cplusplus
-static_assert(sizeof(TessellationTotals) == 80 && offsetof(TessellationTotals, indices) == 32);
+static_assert(sizeof(TessellationTotals) == 48 && offsetof(TessellationTotals, indices) == 16);
 #endif
 
 // DrawElementsIndirectCommand.

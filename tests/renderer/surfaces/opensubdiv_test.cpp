@@ -12,8 +12,8 @@
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/catmull_clark.h"
-#include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/loop_point.h"
+#include "renderer/surfaces/loop_subdivision.h"
 
 namespace limen::surfaces {
 namespace {

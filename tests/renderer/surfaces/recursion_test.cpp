@@ -5,11 +5,16 @@
 
 #include <map>
 
+#include "experiments/base/error.h"
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/curved/teapot.h"
+#include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/central_differences.h"
 #include "renderer/surfaces/neighbours.h"
+#include "renderer/surfaces/patch_builder.h"
 #include "renderer/surfaces/pn_set.h"
 #include "renderer/surfaces/surface_errors.h"
+#include "tests/renderer/scene/scene_fixtures.h"
 
 namespace limen::surfaces {
 namespace {
@@ -198,19 +203,185 @@ double largestGap(const PatchSet& set, const TessellatedSurface& surface) {
   return gap;
 }
 
-TEST_F(Recursion, SnappedSidesLeaveTVerticesWithoutGaps) {
+TEST_F(Recursion, SnappedAndAlteredSidesLeaveTVerticesWithoutGaps) {
   const PatchSet teapot = teapotSet();
   const SurfaceView view = viewFrom({2.5, 3.5, 3}, {0, 1.5, 0});
   for (const SplitPolicy split : {SplitPolicy::Halves, SplitPolicy::Quarters, SplitPolicy::Mixed}) {
     RecursionSettings settings{.split = split, .tolerancePx = 4.0, .cull = false};
     const TessellatedSurface open = refined(teapot, view, settings);
-    settings.snap = true;
-    const TessellatedSurface snapped = refined(teapot, view, settings);
-    EXPECT_GT(cracksOf(teapot, snapped).loneVertices, 0) << toText(split);
     EXPECT_GT(largestGap(teapot, open), 1e-3) << toText(split);
-    EXPECT_LT(largestGap(teapot, snapped), 1e-6) << toText(split);
-    EXPECT_NEAR(coveredArea(snapped), 32.0, 1e-9);
+    for (const CrackHandling cracks : {CrackHandling::Snap, CrackHandling::Alter}) {
+      settings.cracks = cracks;
+      const TessellatedSurface closed = refined(teapot, view, settings);
+      EXPECT_GT(cracksOf(teapot, closed).loneVertices, 0) << toText(split) << " " << toText(cracks);
+      EXPECT_LT(largestGap(teapot, closed), 1e-6) << toText(split) << " " << toText(cracks);
+      EXPECT_NEAR(coveredArea(closed), 32.0, 1e-9);
+    }
   }
+}
+
+/// Largest distance of a surface's vertices from where the patches have them.
+double largestOffset(const PatchSet& set, const TessellatedSurface& surface) {
+  double most = 0.0;
+  for (size_t i = 0; i < surface.positions.size(); ++i) {
+    const dvec3 p = evaluate(set, set.patches[surface.patches[i]], surface.parameters[i], Order::Position).p;
+    most = std::max(most, glm::length(p - dvec3(surface.positions[i])));
+  }
+  return most;
+}
+
+// Clark's way changes the patch: vertices off the side that was flat move as well.
+TEST_F(Recursion, AlteredSidesMoveTheInterior) {
+  const PatchSet teapot = teapotSet();
+  const SurfaceView view = viewFrom({2.5, 3.5, 3}, {0, 1.5, 0});
+  RecursionSettings settings{.split = SplitPolicy::Quarters, .tolerancePx = 4.0, .cull = false};
+  const auto movedInside = [&](CrackHandling cracks) {
+    settings.cracks = cracks;
+    const TessellatedSurface surface = refined(teapot, view, settings);
+    const TessellatedSurface plain =
+        refined(teapot, view, {.split = SplitPolicy::Quarters, .tolerancePx = 4.0, .cull = false});
+    std::map<std::tuple<uint32_t, double, double>, dvec3> places;
+    for (size_t i = 0; i < plain.positions.size(); ++i)
+      places[{plain.patches[i], plain.parameters[i].u, plain.parameters[i].v}] = plain.positions[i];
+    int64_t moved = 0;
+    for (size_t i = 0; i < surface.positions.size(); ++i) {
+      const auto found = places.find({surface.patches[i], surface.parameters[i].u, surface.parameters[i].v});
+      moved += found != places.end() && glm::length(found->second - dvec3(surface.positions[i])) > 1e-6;
+    }
+    return moved;
+  };
+  EXPECT_GT(movedInside(CrackHandling::Alter), movedInside(CrackHandling::Snap));
+}
+
+TEST_F(Recursion, PathsAreWatertightAndCoverEachDomainOnce) {
+  const RecursionSettings settings{.split = SplitPolicy::Paths, .tolerancePx = 1.0, .cull = false};
+  const PatchSet teapot = teapotSet(), torus = torusSet();
+  // From so near that patches pass the eye's plane.
+  const TessellatedSurface pot = refined(teapot, viewFrom({2.5, 3.5, 3}, {0, 1.5, 0}), settings);
+  const TessellatedSurface rings = refined(torus, viewFrom({1, 5, 4}, {0, 0, 0}), settings);
+  EXPECT_GT(pot.triangles.size(), 500U);
+  EXPECT_NEAR(coveredArea(pot), 32.0, 1e-9);
+  EXPECT_NEAR(coveredArea(rings), 1536 * 0.5, 1e-6);
+  EXPECT_LT(largestOffset(teapot, pot), 1e-5);
+  for (const Cracks& cracks : {cracksOf(teapot, pot), cracksOf(torus, rings)}) {
+    EXPECT_EQ(cracks.loneVertices, 0);
+    EXPECT_EQ(cracks.openEdges, 0);
+  }
+}
+
+/// A bicubic patch over the unit square whose points b12 and b21 are raised and lowered: sides and the
+/// diagonal stay straight.
+PatchSet saddle(double height) {
+  std::vector<glm::dvec4> points;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      points.emplace_back(i / 3.0, j / 3.0,
+                          i == 1 && j == 2   ? height
+                          : i == 2 && j == 1 ? -height
+                                             : 0.0,
+                          1.0);
+  PatchSet set;
+  addRectangle(set, 3, 3, points);
+  findNeighbours(set);
+  return set;
+}
+
+// What no curve of the triangulation passes is missed; tests of all control points see it.
+TEST_F(Recursion, PathsMissWhatTheirCurvesDoNotMeet) {
+  const PatchSet set = saddle(1.0);
+  // From the side, so that heights are seen.
+  const SurfaceView view = viewFrom({0.5, -3.0, 1.0}, {0.5, 0.5, 0.0});
+  const TessellatedSurface paths =
+      refined(set, view, {.split = SplitPolicy::Paths, .tolerancePx = 1.0, .cull = false});
+  EXPECT_EQ(paths.triangles.size(), 2U);
+  EXPECT_GT(refined(set, view, {.split = SplitPolicy::Quarters, .tolerancePx = 1.0, .cull = false})
+                .triangles.size(),
+            50U);
+}
+
+/// A random bicubic polynomial by its Bézier points, and its records from exact derivatives.
+struct Bicubic {
+  std::array<double, 16> b;
+  static double bernstein(int i, double t) {
+    const double s = 1.0 - t;
+    return i == 0 ? s * s * s : i == 1 ? 3 * s * s * t : i == 2 ? 3 * s * t * t : t * t * t;
+  }
+  /// Second derivatives of the Bernstein polynomials of degree 3.
+  static double second(int i, double t) {
+    const double s = 1.0 - t;
+    return i == 0 ? 6 * s : i == 1 ? -12 * s + 6 * t : i == 2 ? 6 * s - 12 * t : 6 * t;
+  }
+  template <class Along, class Across>
+  double sum(const Along& alongU, const Across& alongV, double u, double v) const {
+    double out = 0.0;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) out += b[static_cast<size_t>(i + 4 * j)] * alongU(i, u) * alongV(j, v);
+    return out;
+  }
+  CentralRecord<double> record(double u, double v) const {
+    return {sum(bernstein, bernstein, u, v), sum(second, bernstein, u, v), sum(bernstein, second, u, v),
+            sum(second, second, u, v)};
+  }
+};
+
+// Second differences over a part are the derivatives times the squares of its extents.
+TEST(CentralDifferences, AreThoseOfTheSplitPatch) {
+  scene::Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    Bicubic f;
+    for (double& one : f.b) one = random.uniform(-1, 1);
+    double low = 0.0, high = 1.0;
+    CentralRecord<double> a = f.record(0, 0), b = f.record(1, 0), c = f.record(0, 1), d = f.record(1, 1);
+    for (int level = 0; level < 12; ++level) {
+      // Into the half along u that a random choice says, then into the lower one along v.
+      const CentralRecord<double> ab = middleAlongU(a, b), cd = middleAlongU(c, d);
+      const bool upper = random.uniform(0, 1) < 0.5;
+      (upper ? low : high) = 0.5 * (low + high);
+      a = halvedAlongU(upper ? ab : a), b = halvedAlongU(upper ? b : ab);
+      c = halvedAlongU(upper ? cd : c), d = halvedAlongU(upper ? d : cd);
+      const CentralRecord<double> ac = middleAlongV(a, c), bd = middleAlongV(b, d);
+      a = halvedAlongV(a), b = halvedAlongV(b), c = halvedAlongV(ac), d = halvedAlongV(bd);
+      const double v = std::ldexp(1.0, -(level + 1)), squareU = (high - low) * (high - low), squareV = v * v;
+      const CentralRecord<double> exact = f.record(high, v);
+      EXPECT_NEAR(d.p, exact.p, 1e-12);
+      EXPECT_NEAR(d.uu, exact.uu * squareU, 1e-12);
+      EXPECT_NEAR(d.vv, exact.vv * squareV, 1e-12);
+      EXPECT_NEAR(d.uuvv, exact.uuvv * squareU * squareV, 1e-12);
+    }
+  }
+}
+
+// Catmull's basis: 1 - t, -t^3 / 3 + t^2 - 2 t / 3, t^3 / 3 - t / 3 and t, of the ends and half of the second
+// differences there, with the middle (c0 + c3) / 2 - (c1 + c2) / 8.
+TEST(CentralDifferences, AreCatmullsBasis) {
+  scene::Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    Bicubic f{};
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t j = 0; j < 4; ++j) f.b[i + 4 * j] = j == 0 ? random.uniform(-1, 1) : f.b[i];
+    const CentralRecord<double> from = f.record(0, 0), to = f.record(1, 0);
+    const double c0 = from.p, c1 = 0.5 * from.uu, c2 = 0.5 * to.uu, c3 = to.p;
+    EXPECT_NEAR(middleAlongU(from, to).p, 0.5 * (c0 + c3) - 0.125 * (c1 + c2), 1e-15);
+    for (const double t : {0.1, 0.5, 0.8})
+      EXPECT_NEAR(
+          f.record(t, 0).p,
+          c0 * (1 - t) + c1 * (-t * t * t / 3 + t * t - 2 * t / 3) + c2 * (t * t * t / 3 - t / 3) + c3 * t,
+          1e-14);
+  }
+}
+
+TEST_F(Recursion, CentralDifferencesRefineAsBezierSplitsDo) {
+  const PatchSet teapot = teapotSet();
+  const SurfaceView view = viewFrom({6, 5, 9}, {0, 1.5, 0});
+  RecursionCounts counts;
+  const TessellatedSurface surface =
+      refined(teapot, view, {.split = SplitPolicy::CentralDifferences, .tolerancePx = 1.0, .cull = false}, {},
+              &counts);
+  EXPECT_EQ(counts.cutShort, 0);
+  EXPECT_GT(surface.triangles.size(), 500U);
+  EXPECT_NEAR(coveredArea(surface), 32.0, 1e-9);
+  EXPECT_LT(largestOffset(teapot, surface), 1e-6);  // vertices are floats
+  EXPECT_THROW(refined(torusSet(), view, {.split = SplitPolicy::CentralDifferences}), Error);
 }
 
 TEST_F(Recursion, PartsThroughTheEyePlaneAreSplitToTheLimit) {

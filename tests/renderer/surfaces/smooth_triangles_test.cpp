@@ -10,6 +10,7 @@
 #include "renderer/surfaces/normal.h"
 #include "renderer/surfaces/pn_set.h"
 #include "renderer/surfaces/surface_errors.h"
+#include "tests/renderer/surfaces/angle.h"
 
 namespace limen::surfaces {
 namespace {
@@ -23,10 +24,6 @@ BaseMesh ball() {
   for (glm::dvec3& p : mesh.positions) p *= random.uniform(0.8, 1.2);
   computeCornerNormals(mesh, 180.0);
   return mesh;
-}
-
-double angleDeg(glm::dvec3 a, glm::dvec3 b) {
-  return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
 /// From four points near the side: differences of positions alone, with no knowledge of the construction.

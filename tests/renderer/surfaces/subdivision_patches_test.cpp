@@ -2,13 +2,18 @@
 // Points and patches of subdivision surfaces against repeated subdivision.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/bezier.h"
+#include "renderer/surfaces/c_patches.h"
 #include "renderer/surfaces/catmull_clark.h"
 #include "renderer/surfaces/catmull_clark_point.h"
 #include "renderer/surfaces/neighbours.h"
+#include "renderer/surfaces/normal.h"
+#include "tests/renderer/surfaces/angle.h"
 
 namespace limen::surfaces {
 namespace {
@@ -103,6 +108,132 @@ TEST(AccPatches, AreExactOnRegularFaces) {
   EXPECT_GT(regular, 100U);
   const SideCounts counts = findNeighbours(set);
   EXPECT_EQ(counts.shared, 4U * mesh.faces.size());
+}
+
+/// SC-23: the normal field of tangent patches is the surface's on regular faces and at all corners.
+TEST(AccPatches, TangentPatchesAreExactOnRegularFaces) {
+  const PolygonMesh mesh = catmullClark(scene::doubleTorusCage());
+  const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+  const LimitPoints limit = catmullClarkLimit(mesh);
+  const MeshTopology topology(mesh);
+  size_t regular = 0;
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    bool isRegular = true;
+    for (size_t c = 0; c < 4; ++c) {
+      const DomainPoint at = sidePoint(Domain::Rectangle, int(c), 0, 1);
+      const SurfaceNormal normal = normalAt(set, set.patches[f], at);
+      EXPECT_EQ(normal.rung, NormalRung::Field);
+      EXPECT_LT(angleDeg(normal.direction, limit.normals[f][c]), 1e-6);
+      isRegular &= topology.rings()[mesh.faces[f][c]].faces.size() == 4;
+    }
+    if (!isRegular) continue;
+    ++regular;
+    for (const double u : {0.1, 0.5, 0.8})
+      for (const double v : {0.0, 0.3, 0.9})
+        EXPECT_LT(angleDeg(normalAt(set, set.patches[f], rectanglePoint(u, v)).direction,
+                           catmullClarkPoint(mesh, f, u, v).normal),
+                  1e-6);
+  }
+  EXPECT_GT(regular, 100U);
+}
+
+/// Around irregular vertices patches meet at angles, and their normal fields do not.
+TEST(AccPatches, TangentPatchesAgreeAcrossEdges) {
+  for (const int steps : {0, 1}) {
+    const PolygonMesh mesh = catmullClark(scene::doubleTorusCage(), steps);
+    const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+    double field = 0.0, geometry = 0.0, fieldError = 0.0, geometryError = 0.0;
+    for (size_t p = 0; p < set.patches.size(); ++p) {
+      for (int side = 0; side < 4; ++side) {
+        const Neighbour& beyond = set.neighbours[p][size_t(side)];
+        ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+        const Patch& other = set.patches[size_t(beyond.patch)];
+        for (int q = 0; q <= 10; ++q) {
+          const DomainPoint at = sidePoint(Domain::Rectangle, side, q, 10),
+                            there = sidePoint(Domain::Rectangle, beyond.side, 10 - q, 10);
+          field = std::max(field, angleDeg(normalAt(set, set.patches[p], at).direction,
+                                           normalAt(set, other, there).direction));
+          geometry = std::max(geometry, angleDeg(geometricNormal(set, set.patches[p], at).direction,
+                                                 geometricNormal(set, other, there).direction));
+        }
+      }
+      for (const double u : {0.05, 0.3, 0.6, 0.95})
+        for (const double v : {0.1, 0.5, 0.9}) {
+          const glm::dvec3 exact = catmullClarkPoint(mesh, uint32_t(p), u, v).normal;
+          const DomainPoint at = rectanglePoint(u, v);
+          fieldError += angleDeg(normalAt(set, set.patches[p], at).direction, exact);
+          geometryError += angleDeg(geometricNormal(set, set.patches[p], at).direction, exact);
+        }
+    }
+    EXPECT_LT(field, 1e-5) << steps;
+    EXPECT_GT(geometry, 1.0) << steps;
+    const double points = 12.0 * double(set.patches.size());
+    // Continuous, but not closer to the surface's normals than the geometry is: 0.63 and 0.50 degrees on
+    // average.
+    EXPECT_LT(fieldError / points, 1.0) << steps;
+    EXPECT_LT(geometryError / points, 1.0) << steps;
+  }
+}
+
+/// SC-24: tangent planes agree along all sides, within quads and between them, whatever the valences; corners
+/// have the surface's points and normals.
+TEST(CPatches, AreSmooth) {
+  double deviation[2] = {};
+  for (const int steps : {0, 1}) {
+    const PolygonMesh mesh = catmullClark(scene::doubleTorusCage(), steps);
+    PatchSet set = cPatches(mesh);
+    ASSERT_EQ(set.patches.size(), 4 * mesh.faces.size());
+    const SideCounts counts = findNeighbours(set);
+    EXPECT_EQ(counts.open + counts.crowded + counts.collapsed, 0U);
+    const LimitPoints limit = catmullClarkLimit(mesh);
+    double angle = 0.0;
+    for (size_t p = 0; p < set.patches.size(); ++p) {
+      for (int side = 0; side < 3; ++side) {
+        const Neighbour& beyond = set.neighbours[p][size_t(side)];
+        ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+        for (int q = 0; q <= 10; ++q)
+          angle = std::max(
+              angle,
+              angleDeg(
+                  geometricNormal(set, set.patches[p], sidePoint(Domain::Triangle, side, q, 10)).direction,
+                  geometricNormal(set, set.patches[size_t(beyond.patch)],
+                                  sidePoint(Domain::Triangle, beyond.side, 10 - q, 10))
+                      .direction));
+      }
+      const size_t face = p / 4, corner = p % 4;
+      const DomainPoint at = trianglePoint(1.0, 0.0);
+      EXPECT_LT(glm::length(evaluate(set, set.patches[p], at).p - limit.points[mesh.faces[face][corner]]),
+                1e-13);
+      EXPECT_LT(angleDeg(geometricNormal(set, set.patches[p], at).direction, limit.normals[face][corner]),
+                1e-6);
+      // In the first triangle (u, v, w) lies at v (1, 0) + w (1/2, 1/2).
+      if (corner > 0) continue;
+      for (const double v : {0.1, 0.4, 0.7})
+        for (const double w : {0.1, 0.25})
+          deviation[steps] =
+              std::max(deviation[steps],
+                       glm::length(evaluate(set, set.patches[p], trianglePoint(1 - v - w, v)).p -
+                                   catmullClarkPoint(mesh, uint32_t(face), v + 0.5 * w, 0.5 * w).position));
+    }
+    EXPECT_LT(angle, 1e-5) << steps;
+  }
+  // Of a surface about 6 wide.
+  EXPECT_LT(deviation[0], 0.1);
+  EXPECT_LT(deviation[1], 0.5 * deviation[0]);
+}
+
+/// A flat sheet of even squares stays as it is, parameters too.
+TEST(CPatches, OfAFlatSheetAreFlat) {
+  PolygonMesh mesh = sheet(0.0);
+  for (glm::dvec3& p : mesh.points) p.z = 0.5 * p.x - p.y;
+  const PatchSet set = cPatches(mesh);
+  // Face 12 lies in the middle: x and y from 2 to 3.
+  for (const double v : {0.0, 0.3, 0.6})
+    for (const double w : {0.0, 0.2, 0.4}) {
+      const glm::dvec3 p = evaluate(set, set.patches[48], trianglePoint(1 - v - w, v)).p;
+      const double x = 2.0 + v + 0.5 * w, y = 2.0 + 0.5 * w;
+      EXPECT_LT(glm::length(p - glm::dvec3(x, y, 0.5 * x - y)), 1e-13);
+    }
 }
 
 /// Boundaries are the cubic B-splines of the sheet.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples looked at only beside other surfaces: which pixels are listed, by double precision, and that their
 // samples see what those of the search by triangles see.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/frame/centre_samples.h"
 #include "renderer/frame/sample_raster.h"
 #include "tests/renderer/frame/brute_force.h"
 #include "tests/renderer/techniques/technique_fixture.h"
@@ -20,18 +22,24 @@ struct Listing {
   uint32_t seen(size_t p, size_t k) const { return marks[p] ? ids[p * kSamplesOfPixel + k] : centres[p]; }
 };
 
-Listing listingOf(frame::Frame& frame, frame::SampleSearch search) {
-  const frame::SampleRaster raster(frame, frame::standardSamplePlaces(kSamplesOfPixel), search);
+template <class Samples>
+Listing drawnTwice(frame::Frame& frame, const Samples& raster) {
   Listing out;
   // The second frame has the first one's leftovers to clear.
   for (int i = 0; i < 2; ++i) {
     frame.begin();
     raster.draw(frame, "samples");
-    out = {raster.marks().readUint(), raster.ids().read<uint32_t>(),
+    out = {raster.marks().readUint(), raster.ids().template read<uint32_t>(),
            frame.get<frame::TriangleIds>().texture().readUint()};
     frame.end();
   }
   return out;
+}
+
+Listing listingOf(frame::Frame& frame, frame::SampleSearch search) {
+  std::vector<glm::vec2> places = frame::standardSamplePlaces(kSamplesOfPixel);
+  if (search == frame::SampleSearch::Centres) return drawnTwice(frame, frame::CentreSamples(frame, places));
+  return drawnTwice(frame, frame::SampleRaster(frame, places, search));
 }
 
 /// What pixels' centres see, in double precision and in camera space.
@@ -145,6 +153,41 @@ TEST_F(MultisampleNeighbours, SamplesOfListedPixelsSeeWhatTheSearchByTrianglesSe
     }
 }
 
+TEST_F(MultisampleNeighbours, CentresGiveSamplesTheirTriangleWhereACentreNearbySeesIt) {
+  for (const char* name : {"two_boxes", "sphere_grid", "columns_hall", "foliage", "street_light"})
+    for (const glm::ivec2 sizePx : {glm::ivec2(61, 43), glm::ivec2(320, 200)}) {
+      const scene::Scene scene = makeScene(name);
+      const frame::GpuScene gpuScene(scene);
+      frame::Frame frame(context(), scene, gpuScene, sizePx);
+      const Listing all = listingOf(frame, frame::SampleSearch::Triangles),
+                    near = listingOf(frame, frame::SampleSearch::Neighbours),
+                    centres = listingOf(frame, frame::SampleSearch::Centres);
+      EXPECT_EQ(near.marks, centres.marks) << name;
+      size_t seenNearby = 0, wrong = 0, strange = 0;
+      for (int y = 0; y < sizePx.y; ++y)
+        for (int x = 0; x < sizePx.x; ++x) {
+          const size_t p = size_t(y) * size_t(sizePx.x) + size_t(x);
+          if (!centres.marks[p]) continue;
+          std::vector<uint32_t> around;
+          for (int py = std::max(y - 1, 0); py <= std::min(y + 1, sizePx.y - 1); ++py)
+            for (int px = std::max(x - 1, 0); px <= std::min(x + 1, sizePx.x - 1); ++px)
+              around.push_back(all.centres[size_t(py) * size_t(sizePx.x) + size_t(px)]);
+          const auto among = [&](uint32_t id) {
+            return std::find(around.begin(), around.end(), id) != around.end();
+          };
+          for (size_t k = 0; k < kSamplesOfPixel; ++k) {
+            strange += !among(centres.seen(p, k));
+            if (!among(all.seen(p, k))) continue;
+            ++seenNearby;
+            wrong += centres.seen(p, k) != all.seen(p, k);
+          }
+        }
+      EXPECT_GT(seenNearby, 300U) << name;
+      EXPECT_EQ(wrong, 0U) << name << ' ' << sizePx.x;
+      EXPECT_EQ(strange, 0U) << name << ' ' << sizePx.x;
+    }
+}
+
 /// A card before a plane. At its edges a circle of sqrt(2) pixels fits in card and plane wherever a sample
 /// is, except near the card's corners.
 TEST_F(MultisampleNeighbours, NoSampleBeyondAnEdgeIsMissed) {
@@ -198,14 +241,16 @@ TEST_F(MultisampleNeighbours, NoSampleBeyondAnEdgeIsMissed) {
 }
 
 TEST_F(MultisampleNeighbours, OnlyTheComputeRasteriserHasThem) {
-  const auto given = [](const char* raster) {
-    return Given{{"raster", std::string(raster)}, {"method.search", std::string("neighbours")}};
-  };
-  EXPECT_FALSE(refusal("soft_shadows/multisample", given("compute")));
-  for (const char* raster : {"auto", "hardware"}) {
-    const std::optional<Error> error = refusal("soft_shadows/multisample", given(raster));
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->where(), "method.search");
+  for (const char* search : {"neighbours", "centres"}) {
+    const auto given = [&](const char* raster) {
+      return Given{{"raster", std::string(raster)}, {"method.search", std::string(search)}};
+    };
+    EXPECT_FALSE(refusal("soft_shadows/multisample", given("compute")));
+    for (const char* raster : {"auto", "hardware"}) {
+      const std::optional<Error> error = refusal("soft_shadows/multisample", given(raster));
+      ASSERT_TRUE(error);
+      EXPECT_EQ(error->where(), "method.search");
+    }
   }
 }
 

@@ -144,6 +144,17 @@ TEST_F(RecursionTechniques, DicedPartsNeedFewerTestsForTheSameError) {
   EXPECT_LT(tests[1], 0.2 * tests[0]);
 }
 
+// Both rasterisers draw the same triangles: they differ by rounding at edges.
+TEST_F(RecursionTechniques, ComputeRasterShowsWhatTheDriverShows) {
+  for (const char* name : {"curved/teapot", "curved/double_torus"})
+    for (const char* technique : {"recursion/queues", "recursion/geometry_shader"}) {
+      const scene::Scene scene = makeScene(name);
+      const Rendered driver = render(scene, technique, {{"raster", std::string("hardware")}}, kSize);
+      const Rendered compute = render(scene, technique, {{"raster", std::string("compute")}}, kSize);
+      EXPECT_LT(meanDifference(driver.product, compute.product), 2e-4) << name << " " << technique;
+    }
+}
+
 TEST_F(RecursionTechniques, TheSurfaceReadBackIsExact) {
   const scene::Scene scene = makeScene("curved/teapot");
   const frame::GpuScene gpuScene(scene);

@@ -474,6 +474,19 @@ TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
         }
 }
 
+/// Normal fields of rectangles, in float as in double precision, whichever shader evaluates them.
+TEST_F(TessellatedSurfaces, RectanglesHaveTheirOwnNormals) {
+  const scene::Scene scene = makeScene(
+      "curved/subdivision", {{"approximation", std::string("acc_tangents")}, {"steps", int64_t{0}}});
+  for (const std::string form : {"vertex_parallel", "patch_parallel", "four_threads"}) {
+    const auto surface = made(scene, text({{"form", form}}));
+    EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).most, 0.01) << form;
+  }
+  // The geometry's are others.
+  const scene::Scene plain = makeScene("curved/subdivision", {{"steps", int64_t{0}}});
+  EXPECT_GT(surfaces::normalErrors(plain.surfaces, *made(scene, {})).most, 1.0);
+}
+
 TEST_F(TessellatedSurfaces, FourThreadsGiveTheBitsOfOthers) {
   const scene::Scene scene = makeScene("curved/teapot");
   const auto one = made(scene, {}), four = made(scene, text({{"form", "four_threads"}}));

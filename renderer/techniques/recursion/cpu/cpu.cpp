@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recursive refinement on the CPU, in double precision (SC-37, 38, 40 to 43): Schwarz 2009, section 7.2.
+// Recursive refinement on the CPU, in double precision (SC-37 to 43, 46): Schwarz 2009, section 7.2.
 // Choices of the bench: flatness is measured on the screen alone; interiors of rectangles are tested as two
 // triangles.
 #include <epoxy/gl.h>
@@ -21,7 +21,7 @@ struct CpuRecursionSettings {
   surfaces::SplitPolicy split = surfaces::SplitPolicy::Halves;
   int mostSteps = 14;
   bool cull = true;
-  bool snap = false;
+  surfaces::CrackHandling cracks = surfaces::CrackHandling::None;
   frame::ShadedSetting shading;
   static const SettingsTable<CpuRecursionSettings>& table() {
     using S = CpuRecursionSettings;
@@ -33,16 +33,16 @@ struct CpuRecursionSettings {
          "Flatness at which a part is drawn",
          "Schwarz 2009 (0.5)"},
         {&S::flatness, "flatness", "What of a part is measured", "Schwarz 2009, section 7.2.1"},
-        {&S::split, "split", "How a part is split", "Schwarz 2009, sections 7.2.2 and 7.2.3"},
+        {&S::split, "split", "How a part is split", "Schwarz 2009, sections 7.2.2, 7.2.3 and 7.2.5"},
         {&S::mostSteps, "most_steps", {0, 20}, "steps", "Splits from a patch to a part at most"},
         {&S::cull, "cull", "Leave out parts outside the view"},
-        {&S::snap, "snap", "Put vertices of a flat side on its chord, so that T-vertices leave no crack",
+        {&S::cracks, "cracks", "What keeps T-vertices on flat sides from leaving cracks",
          "Schwarz 2009, section 7.2.4"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
   surfaces::RecursionSettings recursion() const {
-    return {flatness, split, tolerancePx, mostSteps, cull, snap};
+    return {flatness, split, tolerancePx, mostSteps, cull, cracks};
   }
 };
 
@@ -116,9 +116,9 @@ class CpuRecursion : public Technique {
 
 const RegisteredTechnique<CpuRecursion> kCpuRecursionRegistered{
     {.name = "recursion/cpu",
-     .version = 1,
+     .version = 2,
      .summary = "Curved surfaces split recursively until parts are flat on the screen, on the CPU",
-     .source = "Schwarz 2009, section 7.2 (SC-37, SC-38, SC-40 to SC-43)",
+     .source = "Schwarz 2009, section 7.2 (SC-37 to SC-43, SC-46)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .tessellates = true,

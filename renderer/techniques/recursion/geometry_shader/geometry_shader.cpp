@@ -14,7 +14,6 @@
 #include "renderer/techniques/recursion/diced_parts.h"
 #include "renderer/techniques/recursion/part_settings.h"
 #include "renderer/techniques/technique.h"
-#include "renderer/techniques/tessellation/surface_picture.h"
 
 namespace limen::techniques {
 namespace {
@@ -129,8 +128,7 @@ class GeometryShaderRecursion : public Technique {
     const int most = 1 << (2 * settings_.levels);
     requireOutput(most);
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
-    picture_.emplace(frame, settings_.parts.shading, "recursion");
-    diced_.emplace(frame, *patches_, settings_.parts.grid, settings_.parts.capacity);
+    diced_.emplace(frame, *patches_, settings_.parts);
     gl::ShaderDefines defines = settings_.parts.defines({});
     defines["LEVELS"] = std::to_string(settings_.levels);
     defines["MAX_PARTS"] = std::to_string(most);
@@ -162,11 +160,10 @@ class GeometryShaderRecursion : public Technique {
 
   void render(frame::Frame& frame) override {
     split(frame);
-    diced_->dice(frame, last().buffer(), *counters_);
-    picture_->render(frame, [&] { diced_->draw(frame, *counters_); });
+    diced_->render(frame, last().buffer(), *counters_);
   }
 
-  const gl::Texture& product() const override { return picture_->texture(); }
+  const gl::Texture& product() const override { return diced_->picture(); }
 
   std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
     return diced_->surface(frame, last().buffer(), *counters_);
@@ -248,7 +245,6 @@ class GeometryShaderRecursion : public Technique {
   Settings settings_;
   int passes_ = 1;
   std::optional<PatchBuffers> patches_;
-  std::optional<SurfacePicture> picture_;
   std::optional<DicedParts> diced_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Buffer> points_, firsts_, first_, counters_;

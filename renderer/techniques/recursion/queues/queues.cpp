@@ -20,8 +20,6 @@
 #include "renderer/techniques/recursion/part_settings.h"
 #include "renderer/techniques/recursion/recursion_bindings.h"
 #include "renderer/techniques/technique.h"
-#include "renderer/techniques/tessellation/surface_picture.h"
-#include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 
 namespace limen::techniques {
@@ -35,8 +33,7 @@ class QueueRecursion : public Technique {
   void prepare(frame::Frame& frame) override {
     requireCubic(frame.scene().surfaces);
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
-    picture_.emplace(frame, settings_.shading, "recursion");
-    diced_.emplace(frame, *patches_, settings_.grid, settings_.capacity);
+    diced_.emplace(frame, *patches_, settings_);
     splitProgram_ = &frame.context().programs().compute(
         "renderer/techniques/recursion/queues/split.comp.glsl", settings_.defines(patches_->defines()));
     first_.emplace(wholePatches(frame.scene().surfaces));
@@ -49,11 +46,10 @@ class QueueRecursion : public Technique {
 
   void render(frame::Frame& frame) override {
     split(frame);
-    diced_->dice(frame, *finished_, *counters_);
-    picture_->render(frame, [&] { diced_->draw(frame, *counters_); });
+    diced_->render(frame, *finished_, *counters_);
   }
 
-  const gl::Texture& product() const override { return picture_->texture(); }
+  const gl::Texture& product() const override { return diced_->picture(); }
 
   std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame& frame) override {
     return diced_->surface(frame, *finished_, *counters_);
@@ -109,7 +105,6 @@ class QueueRecursion : public Technique {
 
   Settings settings_;
   std::optional<PatchBuffers> patches_;
-  std::optional<SurfacePicture> picture_;
   std::optional<DicedParts> diced_;
   const gl::Program* splitProgram_ = nullptr;
   std::optional<gl::Buffer> first_, finished_, counters_;

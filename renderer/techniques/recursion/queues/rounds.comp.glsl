@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Between rounds: what the next one is dispatched over, and at last what is diced and drawn. One invocation. See
 // queues.cpp.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/techniques/recursion/recursion_bindings.h"
 
 layout(local_size_x = 1) in;
 layout(std430, binding = kSplitCountersBuffer) buffer Counters { RecursionCounters counters; };
+layout(std430, binding = kListedTrianglesBuffer) writeonly buffer Count { RasterCount listed_; };
 
 uniform uint partCapacity, indicesPerPart;
 
@@ -27,6 +29,7 @@ void main() {
   counters.diceGroupsY = dice.y;
   counters.diceGroupsZ = 1u;
   counters.indices = finished * indicesPerPart;
+  listed_.triangles = counters.indices / 3u;
   counters.instances = 1u;
   counters.firstIndex = 0u;
   counters.baseVertex = 0u;

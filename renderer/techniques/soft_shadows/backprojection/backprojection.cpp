@@ -40,7 +40,7 @@ class Backprojection : public SearchTechnique {
 
 const RegisteredTechnique<Backprojection> kBackprojectionRegistered{
     {.name = "soft_shadows/backprojection",
-     .version = 3,
+     .version = 4,
      .summary = "Micro-occluders backprojected onto the light, their areas summed",
      .source = "Schwarz 2009, sections 4.1 and 4.4 (SS-10, SS-11, SS-26, SS-30, SS-31)",
      .product = ProductKind::Visibility,

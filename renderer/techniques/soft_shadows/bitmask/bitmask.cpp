@@ -25,7 +25,7 @@ std::vector<Quantity> bitmaskQuantities() {
 
 const RegisteredTechnique<Bitmask> kBitmaskRegistered{
     {.name = "soft_shadows/bitmask",
-     .version = 5,
+     .version = 6,
      .summary = "Micro-occluders backprojected onto a bit field of light samples",
      .source = "Schwarz 2009, sections 4.2 and 4.4 (SS-12 to SS-16, SS-19, SS-20, SS-27 to SS-30)",
      .product = ProductKind::Visibility,

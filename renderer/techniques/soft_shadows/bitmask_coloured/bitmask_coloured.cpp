@@ -131,7 +131,7 @@ std::vector<Quantity> colouredQuantities() {
 
 const RegisteredTechnique<BitmaskColoured> kBitmaskColouredRegistered{
     {.name = "soft_shadows/bitmask_coloured",
-     .version = 5,
+     .version = 6,
      .summary = "Visible share of a coloured or textured light's radiance, by a bit field of light samples",
      .source = "Schwarz 2009, section 4.2.2 (SS-17, SS-18)",
      .product = ProductKind::LightColour,

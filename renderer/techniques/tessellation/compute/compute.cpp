@@ -243,11 +243,11 @@ class ComputeTessellation : public Technique {
     factors_->factors().bindStorage(kFactorsBuffer);
     vertices_->bindStorage(kVerticesBuffer);
     indices_->bindStorage(kIndicesBuffer);
-    fill(frame, *verticesProgram_, "tessellation/vertices", offsetof(TessellationTotals, groupsX));
+    fill(frame, *verticesProgram_, "tessellation/vertices");
     if (copyProgram_) copySides(frame);
-    fill(frame, *indicesProgram_, "tessellation/indices", offsetof(TessellationTotals, indexGroupsX));
+    fill(frame, *indicesProgram_, "tessellation/indices");
     if (lists_) {
-      picture_->renderListed(frame, {*vertices_, *indices_, *count_});
+      picture_->renderListed(frame, {*vertices_, *indices_, *count_, capacity_ * kIndicesPerVertex / 3});
       return;
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
@@ -408,25 +408,34 @@ class ComputeTessellation : public Technique {
         static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
   }
 
-  /// `groups`: where in TessellationTotals.
-  void fill(frame::Frame& frame, const gl::Program& program, const char* pass, size_t groups) {
+  void fill(frame::Frame& frame, const gl::Program& program, const char* pass) {
     const auto scope = frame.passes().open(pass);
     program.use();
     program.set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, totals_->id());
-    glDispatchComputeIndirect(static_cast<GLintptr>(groups));
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    if (settings_.fourThreads() && &program == verticesProgram_) {
+      dispatchPatches(4);
+    } else {
+      // For the most invocations that a patch may have, but no more than occupy the device twice.
+      const int64_t most = settings_.vertexParallel() ? capacity_ * kIndicesPerVertex
+                                                      : int64_t{patches_->count()} * kMostLanes;
+      program.dispatch({static_cast<int>(std::min<int64_t>(most, 2 * manyInvocations(frame.context()))), 1},
+                       {kTessellationGroup, 1});
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void dispatchPatches(uint32_t perPatch) const {
+    const uint32_t groups =
+        (patches_->count() * perPatch + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+    const uint32_t rows = (groups + 65534) / 65535;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
   }
 
   void copySides(frame::Frame& frame) {
     const auto scope = frame.passes().open("tessellation/sides");
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
-    const uint32_t sides = patches_->count() * 4,
-                   groups = (sides + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup),
-                   rows = (groups + 65534) / 65535;
-    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+    dispatchPatches(4);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 

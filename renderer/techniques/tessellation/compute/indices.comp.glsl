@@ -25,33 +25,31 @@ shared uint groupIndices[3 * kTessellationGroup];
 #endif
 
 void main() {
-  const uint local = gl_LocalInvocationIndex, group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  const uint slots = totals.indices / kIndicesPerSlot;
-  const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + local;
-  if (firstSlot >= slots) return;
-  const uint number = patchOfSlot(firstSlot, slots, 1);
-  const uvec2 first = slotOffsets[number];
-  const PatternPlan plan = planOf(number, shapeOf(patches[number]));
+  const uint local = gl_LocalInvocationIndex, slots = totals.indices / kIndicesPerSlot;
+  for (uint firstSlot = gl_WorkGroupID.x * uint(kTessellationGroup); firstSlot < slots; firstSlot += invocationCount()) {
+    const uint slot = firstSlot + local, number = patchOfSlot(firstSlot, slots, 1);
+    const uvec2 first = slotOffsets[number];
+    const PatternPlan plan = planOf(number, shapeOf(patches[number]));
 #ifdef LISTS
-  const uvec3 corners =
-      slot < slots ? uvec3(patternTriangle(plan, int(slot - first.y))) + first.x : uvec3(0u);
-  groupIndices[3u * local] = corners.x;
-  groupIndices[3u * local + 1u] = corners.y;
-  groupIndices[3u * local + 2u] = corners.z;
-  barrier();
-  // The buffer's length is a multiple of four words.
-  const uint place = group * uint(3 * kTessellationGroup / 4) + local;
-  if (local < uint(3 * kTessellationGroup / 4) && 4u * place < totals.indices)
-    indexWords[place] = uvec4(groupIndices[4u * local], groupIndices[4u * local + 1u], groupIndices[4u * local + 2u],
-                              groupIndices[4u * local + 3u]);
+    const uvec3 corners =
+        slot < slots ? uvec3(patternTriangle(plan, int(slot - first.y))) + first.x : uvec3(0u);
+    groupIndices[3u * local] = corners.x;
+    groupIndices[3u * local + 1u] = corners.y;
+    groupIndices[3u * local + 2u] = corners.z;
+    barrier();
+    // The buffer's length is a multiple of four words.
+    const uint place = firstSlot / 4u * 3u + local;
+    if (local < uint(3 * kTessellationGroup / 4) && 4u * place < totals.indices)
+      indexWords[place] = uvec4(groupIndices[4u * local], groupIndices[4u * local + 1u], groupIndices[4u * local + 2u],
+                                groupIndices[4u * local + 3u]);
+    barrier();
 #else
-  if (slot < slots) indices[slot] = stripIndex(plan, slot - first.y, first.x);
+    if (slot < slots) indices[slot] = stripIndex(plan, slot - first.y, first.x);
 #endif
+  }
 }
 #else
-void main() {
-  const PatchLane at = patchLane(totals.indexLaneBits);
-  if (at.number >= totals.patches) return;
+void makeIndices(PatchLane at) {
   const uvec2 first = slotOffsets[at.number];
   const uint count = slotOffsets[at.number + 1u].y - first.y;
   if (count == 0u) return;
@@ -69,5 +67,10 @@ void main() {
   for (uint slot = at.lane; slot < count; slot += at.lanes)
     indices[first.y + slot] = stripIndex(plan, slot, first.x);
 #endif
+}
+
+void main() {
+  const uint count = totals.patches << totals.indexLaneBits;
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += invocationCount()) makeIndices(patchLane(i, totals.indexLaneBits));
 }
 #endif

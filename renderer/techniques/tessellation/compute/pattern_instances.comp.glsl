@@ -8,21 +8,26 @@ void writeInstance(PatternPlan plan, uint number, uint first, uint slot) {
   instances[first + slot] = uvec2(number, packedSegments(patternSample(plan, int(slot))));
 }
 
-void main() {
 #ifdef VERTEX_PARALLEL
-  const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + gl_LocalInvocationIndex;
-  if (firstSlot >= totals.vertices) return;
-  const uint number = patchOfSlot(firstSlot, totals.vertices, 0);
-  if (slot >= totals.vertices) return;
-  const uint first = slotOffsets[number].x;
-  writeInstance(planOf(number, shapeOf(patches[number])), number, first, slot - first);
+void main() {
+  for (uint firstSlot = gl_WorkGroupID.x * uint(kTessellationGroup); firstSlot < totals.vertices;
+       firstSlot += invocationCount()) {
+    const uint slot = firstSlot + gl_LocalInvocationIndex, number = patchOfSlot(firstSlot, totals.vertices, 0);
+    if (slot >= totals.vertices) continue;
+    const uint first = slotOffsets[number].x;
+    writeInstance(planOf(number, shapeOf(patches[number])), number, first, slot - first);
+  }
+}
 #else
-  const PatchLane by = patchLane(totals.laneBits);
-  if (by.number >= totals.patches) return;
+void writeInstances(PatchLane by) {
   const uint first = slotOffsets[by.number].x, count = slotOffsets[by.number + 1u].x - first;
   if (count == 0u) return;
   const PatternPlan plan = planOf(by.number, shapeOf(patches[by.number]));
   for (uint slot = by.lane; slot < count; slot += by.lanes) writeInstance(plan, by.number, first, slot);
-#endif
 }
+
+void main() {
+  const uint count = totals.patches << totals.laneBits;
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += invocationCount()) writeInstances(patchLane(i, totals.laneBits));
+}
+#endif

@@ -35,17 +35,21 @@ struct PatchLane {
   uint number, lane, lanes;
 };
 
-PatchLane patchLane(uint laneBits) {
-  const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  const uint invocation = group * uint(kTessellationGroup) + gl_LocalInvocationIndex, lanes = 1u << laneBits;
+PatchLane patchLane(uint invocation, uint laneBits) {
+  const uint lanes = 1u << laneBits;
   return PatchLane(invocation >> laneBits, invocation & (lanes - 1u), lanes);
 }
+
+// A fixed number of groups takes one piece of work after another: an indirect dispatch, of as many groups as are needed, makes
+// NVIDIA's driver wait for the numbers (some 0.03 ms each on an H200).
+uint invocationCount() { return gl_NumWorkGroups.x * uint(kTessellationGroup); }
 
 #ifdef VERTEX_PARALLEL
 shared uint groupPatches[2];
 
 // Of this invocation's slot; the group's first and last slot bound the search. Called by the whole group.
 uint patchOfSlot(uint firstSlot, uint slotCount, int lane) {
+  barrier();  // the search before is done
   if (gl_LocalInvocationIndex < 2u) {
     const uint last = min(firstSlot + uint(kTessellationGroup), slotCount) - 1u;
     groupPatches[gl_LocalInvocationIndex] =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many patches fit into the buffers, how many invocations share a patch (unless VERTEX_PARALLEL), and what is
-// dispatched and drawn. One group. See compute.cpp.
+// drawn. One group. See compute.cpp.
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 
@@ -17,12 +17,6 @@ uniform uint manyInvocations;       // that occupy a GPU
 uniform uint verticesPerInvocation; // where there are many
 
 shared uint sampledPatches[kTessellationGroup];
-
-uvec2 groupsFor(uint invocations) {
-  const uint groups = (invocations + uint(kTessellationGroup) - 1u) / uint(kTessellationGroup);
-  const uint rows = (groups + 65534u) / 65535u;
-  return rows == 0u ? uvec2(0u) : uvec2((groups + rows - 1u) / rows, rows);
-}
 
 // Logarithm of the number of invocations for each patch: the wanted number of items each, or fewer items where there would
 // be few invocations in all, but no fewer than one. `seen`: patches that are not culled.
@@ -55,19 +49,11 @@ void main() {
   const uvec2 used = slotOffsets[low], needed = slotOffsets[patchCount];
 #ifdef VERTEX_PARALLEL
   const uint laneBits = 0u, indexLaneBits = 0u;
-  const uvec2 vertexGroups = groupsFor(used.x), indexGroups = groupsFor(used.y);
 #else
   const float seen = max(float(low) * float(max(samples, 1u)) / float(kTessellationGroup), 1.0);
   const uint laneBits = lanes > 0u ? uint(findMSB(lanes)) : lanesFor(used.x, seen),
              indexLaneBits = indexLanes > 0u ? uint(findMSB(indexLanes)) : lanesFor(used.y, seen);
-  const uvec2 vertexGroups = groupsFor(low << laneBits), indexGroups = groupsFor(low << indexLaneBits);
 #endif
-  totals.groupsX = vertexGroups.x;
-  totals.groupsY = vertexGroups.y;
-  totals.groupsZ = 1u;
-  totals.indexGroupsX = indexGroups.x;
-  totals.indexGroupsY = indexGroups.y;
-  totals.indexGroupsZ = 1u;
   totals.vertices = used.x;
   totals.patches = low;
   totals.indices = used.y * indicesPerSlot;
@@ -77,12 +63,7 @@ void main() {
   totals.baseInstance = 0u;
   totals.laneBits = laneBits;
   totals.indexLaneBits = indexLaneBits;
-  // As ComputeRaster takes lists of triangles.
-  const uint triangles = used.y * indicesPerSlot / 3u;
-  listed_.groupsX = (min(triangles, kRasterRowInvocations) + uint(kRasterGroup) - 1u) / uint(kRasterGroup);
-  listed_.groupsY = (triangles + kRasterRowInvocations - 1u) / kRasterRowInvocations;
-  listed_.groupsZ = 1u;
-  listed_.triangles = triangles;
+  listed_.triangles = used.y * indicesPerSlot / 3u;  // as ComputeRaster takes them
   totals.overflow = patchCount - low;
   totals.neededVertices = needed.x;
   totals.neededIndices = needed.y > 0xffffffffu / indicesPerSlot ? 0xffffffffu : needed.y * indicesPerSlot;

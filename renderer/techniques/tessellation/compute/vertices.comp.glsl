@@ -72,19 +72,19 @@ void core(TessellatedPatch patch_, PatternPlan plan, uint first, PatchLane by) {
 }
 #endif
 
-void main() {
 #ifdef VERTEX_PARALLEL
-  const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  const uint firstSlot = group * uint(kTessellationGroup), slot = firstSlot + gl_LocalInvocationIndex;
-  if (firstSlot >= totals.vertices) return;
-  const uint number = patchOfSlot(firstSlot, totals.vertices, 0);
-  if (slot >= totals.vertices) return;
-  const TessellatedPatch patch_ = patches[number];
-  const PatternPlan plan = planOf(number, shapeOf(patch_));
-  storeVertex(slot, patternVertex(patch_, number, plan, int(slot - slotOffsets[number].x)));
+void main() {
+  for (uint firstSlot = gl_WorkGroupID.x * uint(kTessellationGroup); firstSlot < totals.vertices;
+       firstSlot += invocationCount()) {
+    const uint slot = firstSlot + gl_LocalInvocationIndex, number = patchOfSlot(firstSlot, totals.vertices, 0);
+    if (slot >= totals.vertices) continue;
+    const TessellatedPatch patch_ = patches[number];
+    const PatternPlan plan = planOf(number, shapeOf(patch_));
+    storeVertex(slot, patternVertex(patch_, number, plan, int(slot - slotOffsets[number].x)));
+  }
+}
 #else
-  const PatchLane by = patchLane(totals.laneBits);
-  if (by.number >= totals.patches) return;
+void makeVertices(PatchLane by) {
   const uint first = slotOffsets[by.number].x, count = slotOffsets[by.number + 1u].x - first;
   if (count == 0u) return;
   const TessellatedPatch patch_ = patches[by.number];
@@ -98,5 +98,10 @@ void main() {
 #endif
   for (uint slot = begin; slot < count; slot += by.lanes)
     storeVertex(first + slot, patternVertex(patch_, by.number, plan, int(slot)));
-#endif
 }
+
+void main() {
+  const uint count = totals.patches << totals.laneBits;
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += invocationCount()) makeVertices(patchLane(i, totals.laneBits));
+}
+#endif
