@@ -25,6 +25,7 @@ namespace {
 struct ConnectedSettings {
   FactorSettings tessellation;
   bool batched = true, strips = true, closeGaps = true;
+  double borderPx = 0.0;
   frame::ShadedSetting shading;
   static const SettingsTable<ConnectedSettings>& table() {
     using S = ConnectedSettings;
@@ -37,6 +38,14 @@ struct ConnectedSettings {
         {&S::closeGaps, "close_gaps",
          "Draw strips as well where neighbours with different normals have different boundaries",
          "Schwarz 2009, section 7.5.2"},
+        {&S::borderPx,
+         "border_px",
+         {0.0, 8.0},
+         "px",
+         "Bands along all sides of patches, this wide to either hand on the screen, which hide gaps instead "
+         "of closing "
+         "them; usually with strips: false. 0: none",
+         "Guthe, Balázs and Klein 2005; Schwarz 2009, section 7.5.1"},
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
@@ -66,8 +75,8 @@ class ConnectedPatterns : public Technique {
                       static_cast<int>(std::bit_ceil(static_cast<unsigned>(most))));
     samples_.emplace(patterns_->samples());
     indices_.emplace(patterns_->indices());
-    // Each patch, and at most one strip for each of its sides.
-    instances_.emplace(int64_t{patches_->count()} * 5 * 4, nullptr);
+    // Each patch, and for each of its sides at most one strip and one border.
+    instances_.emplace(int64_t{patches_->count()} * 9 * 4, nullptr);
     if (settings_.strips && settings_.closeGaps) gaps_ = surfaces::inherentGaps(*surfaces_);
     if (!gaps_.empty()) gapStrips_.emplace(static_cast<int64_t>(gaps_.size() * sizeof(glm::uvec2)), nullptr);
     programs_ = programsWith(frame, "renderer/techniques/tessellation/surface.frag.glsl");
@@ -107,13 +116,18 @@ class ConnectedPatterns : public Technique {
       strips += command.instances * (command.indices / 4);
       closed += command.instances;
     }
+    double borders = 0.0;
+    for (const PatternCommand& command : borderCommands_)
+      borders += command.instances * (command.indices - 2);
     return {{"patches_culled", culled},
-            {"tessellated_triangles", triangles + strips},
+            {"tessellated_triangles", triangles + strips + borders},
+            {"border_triangles", borders},
             {"strip_triangles", strips},
             {"sides_stitched", sides},
             {"gaps_closed", closed},
             {"crack_pixels", double(cracks)},
-            {"draw_calls", double(levelCommands_.size() + stripCommands_.size() + gapCommands_.size())}};
+            {"draw_calls", double(levelCommands_.size() + stripCommands_.size() + gapCommands_.size() +
+                                  borderCommands_.size())}};
   }
 
  private:
@@ -144,8 +158,17 @@ class ConnectedPatterns : public Technique {
     levelCommands_.clear();
     stripCommands_.clear();
     gapCommands_.clear();
+    borderCommands_.clear();
     for (const auto& [level, numbers] : byLevel)
       add(patterns_->levelOf(level), numbers, instances, levelCommands_);
+    if (settings_.borderPx > 0.0)
+      for (const auto& [level, numbers] : byLevel) {
+        std::vector<uint32_t> sides;
+        for (const uint32_t number : numbers)
+          for (int side = 0; side < surfaces::sidesOf(surfaces_->patches[0].domain); ++side)
+            sides.push_back(4 * number + static_cast<uint32_t>(side));
+        add(patterns_->borderOf(level), sides, instances, borderCommands_);
+      }
     for (const auto& [pair, numbers] : byPair)
       add(patterns_->stripOf(pair.first, pair.second), numbers, instances, stripCommands_);
     std::vector<glm::uvec2> gapStrips;
@@ -192,7 +215,7 @@ class ConnectedPatterns : public Technique {
   }
 
   struct Programs {
-    const gl::Program *levels = nullptr, *strips = nullptr, *gaps = nullptr;
+    const gl::Program *levels = nullptr, *strips = nullptr, *gaps = nullptr, *borders = nullptr;
   };
   Programs programsWith(frame::Frame& frame, const std::string& fragmentShader) const {
     gl::ShaderDefines defines = patches_->defines();
@@ -204,6 +227,11 @@ class ConnectedPatterns : public Technique {
     out.levels = program();
     defines["CONNECTING"] = "1";
     out.strips = program();
+    if (settings_.borderPx > 0.0) {
+      defines["BORDER"] = "1";
+      out.borders = program();
+      defines.erase("BORDER");
+    }
     if (gaps_.empty()) return out;
     defines.erase("CONNECTING");
     defines["GAPS"] = "1";
@@ -211,8 +239,8 @@ class ConnectedPatterns : public Technique {
     return out;
   }
 
-  /// `cull`: strips that have folded over.
-  void draw(frame::Frame& frame, const Programs& programs, bool cull) const {
+  /// `shown`: with borders, and without strips that have folded over.
+  void draw(frame::Frame& frame, const Programs& programs, bool shown) const {
     patches_->bindStorage();
     factors_->factors().bindStorage(kFactorsBuffer);
     glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
@@ -227,7 +255,12 @@ class ConnectedPatterns : public Technique {
             static_cast<GLint>(of.firstVertex), of.firstInstance);
     };
     issue(*programs.levels, levelCommands_);
-    if (cull) glEnable(GL_CULL_FACE);
+    if (shown && programs.borders) {
+      programs.borders->set("sizePx", glm::vec2(frame.sizePx()));
+      programs.borders->set("borderPx", static_cast<float>(settings_.borderPx));
+      issue(*programs.borders, borderCommands_);
+    }
+    if (shown) glEnable(GL_CULL_FACE);
     issue(*programs.strips, stripCommands_);
     if (programs.gaps) {
       gapStrips_->bindStorage(kGapStripsBuffer);
@@ -260,7 +293,7 @@ class ConnectedPatterns : public Technique {
   std::vector<surfaces::InherentGap> gaps_;
   std::optional<gl::Buffer> samples_, indices_, instances_, gapStrips_;
   std::vector<int> levels_;  // of each patch; 0: culled
-  std::vector<PatternCommand> levelCommands_, stripCommands_, gapCommands_;
+  std::vector<PatternCommand> levelCommands_, stripCommands_, gapCommands_, borderCommands_;
   Programs programs_;
   uint32_t vertexArray_ = 0;
 };
@@ -276,9 +309,11 @@ const RegisteredTechnique<ConnectedPatterns> kConnectedPatternsRegistered{
      .counters = {{"patches_culled", "Patches culled", "patches", Direction::Neither},
                   {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
                   {"strip_triangles", "Triangles of strips", "triangles", Direction::LowerIsBetter},
+                  {"border_triangles", "Triangles of borders", "triangles", Direction::LowerIsBetter},
                   {"sides_stitched", "Sides with strips", "sides", Direction::Neither},
                   {"gaps_closed", "Gaps at creases closed", "gaps", Direction::Neither},
-                  {"crack_pixels", "Pixels with a crack in closed surfaces", "px", Direction::LowerIsBetter},
+                  {"crack_pixels", "Pixels with a crack in closed surfaces, whatever borders hide", "px",
+                   Direction::LowerIsBetter},
                   {"draw_calls", "Draw calls", "", Direction::LowerIsBetter}}}};
 
 }  // namespace

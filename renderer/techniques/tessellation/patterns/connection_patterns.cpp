@@ -27,6 +27,7 @@ ConnectionPatterns::ConnectionPatterns(surfaces::Domain domain, int most) {
   }
   for (int coarse = 1; coarse <= most; coarse *= 2)
     for (int fine = coarse; fine <= most; fine *= 2) addStrip(coarse, fine);
+  for (int n = 1; n <= most; n *= 2) addBorder(n);
 }
 
 void ConnectionPatterns::addStrip(int coarse, int fine) {
@@ -45,6 +46,17 @@ void ConnectionPatterns::addStrip(int coarse, int fine) {
     a = next;
   }
   strips_[{coarse, fine}] = {static_cast<uint32_t>(indices_.size()) - firstIndex, firstIndex, firstVertex};
+}
+
+void ConnectionPatterns::addBorder(int segments) {
+  const auto firstVertex = static_cast<uint32_t>(samples_.size()),
+             firstIndex = static_cast<uint32_t>(indices_.size());
+  for (int q = 0; q <= segments; ++q)
+    for (const int edge : {0, 1}) {
+      indices_.push_back(static_cast<uint32_t>(samples_.size()) - firstVertex);
+      samples_.emplace_back(q, segments, edge, 0);
+    }
+  borders_[segments] = {static_cast<uint32_t>(indices_.size()) - firstIndex, firstIndex, firstVertex};
 }
 
 }  // namespace limen::techniques

@@ -3,7 +3,7 @@
 // nearest of the side's own (Schwarz 2009, section 7.5.4; SC-65, SC-66). CONNECTING: the pattern lies along a side alone, of
 // which there are 4 for each patch. GAPS: along two sides with the same ends. INSTANCES: each vertex has a patch and a
 // sample of its own (SC-76). CAPTURE: transform feedback stores vertices as TessellatedVertex.
-// COARSE: patches with more than one segment vanish.
+// COARSE: patches with more than one segment vanish. BORDER: of a band along a side (with CONNECTING; SC-64).
 #include "renderer/techniques/tessellation/evaluate.glsl"
 
 #ifdef INSTANCES
@@ -17,6 +17,10 @@ layout(std430, binding = kFactorsBuffer) readonly buffer Factors { PatchFactors 
 layout(std430, binding = kGapStripsBuffer) readonly buffer GapStrips { uvec2 gapStrips[]; };  // 4 patch + side, of both
 #endif
 uniform mat4 anchorToClip;
+#ifdef BORDER
+uniform vec2 sizePx;
+uniform float borderPx;
+#endif
 #ifdef CAPTURE
 layout(xfb_buffer = 0, xfb_stride = 32) out;
 layout(xfb_offset = 0) out vec3 position;
@@ -44,6 +48,24 @@ TessellatedVertex gapVertex() {
   TessellatedVertex vertex = (strip.x & kGapNormalsOfOwn) != 0u ? own : other;
   vertex.position = sample_.z == 0 ? own.position : other.position;
   return vertex;
+}
+#endif
+
+#ifdef BORDER
+vec4 clipOf(TessellatedPatch patch_, int q) {
+  const uint shape = shapeOf(patch_);
+  const ivec4 s = patternSideSample(isRectangle(shape) ? 1 : 0, int(number & 3u), q, sample_.y);
+  return anchorToClip * vec4(positionOf(jetAt(patch_, domainPoint(shape, s)).p), 1.0);
+}
+
+// Away from the side on the screen, and a little behind it, so that surfaces cover bands that they lie beside.
+vec4 besideSide(TessellatedPatch patch_, vec4 clip) {
+  const vec4 from = clipOf(patch_, max(sample_.x - 1, 0)), to = clipOf(patch_, min(sample_.x + 1, sample_.y));
+  const vec2 along = (to.xy * from.w - from.xy * to.w) * sizePx;
+  const float length_ = length(along);
+  if (length_ == 0.0 || from.w <= 0.0 || to.w <= 0.0) return clip;
+  const vec2 across = vec2(-along.y, along.x) / length_ * (sample_.z == 0 ? borderPx : -borderPx);
+  return vec4(clip.xy + across * 2.0 / sizePx * clip.w, clip.z * (1.0 - 1e-4), clip.w);
 }
 #endif
 
@@ -81,7 +103,11 @@ void main() {
   const TessellatedVertex vertex = surfaceVertex(patch_, domainPoint(shape, s));
 #endif
   precise const vec4 clip = anchorToClip * vec4(vertex.position, 1.0);
+#ifdef BORDER
+  gl_Position = besideSide(patch_, clip);
+#else
   gl_Position = clip;
+#endif
   normal = vertex.normal;
   distance_ = clip.w;
   material = vertex.material;
