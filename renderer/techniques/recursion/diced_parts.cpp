@@ -79,7 +79,7 @@ void DicedParts::dice(frame::Frame& frame, const gl::Buffer& parts, const gl::Bu
 void DicedParts::render(frame::Frame& frame, const gl::Buffer& parts, const gl::Buffer& counters) {
   dice(frame, parts, counters);
   if (lists_) {
-    picture_.renderListed(frame, {*vertices_, *indices_, listed_});
+    picture_.renderListed(frame, {*vertices_, *indices_, listed_, int64_t{capacity_} * 2 * grid_ * grid_});
     return;
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
