@@ -29,11 +29,7 @@ void main() {
   counters.diceGroupsY = dice.y;
   counters.diceGroupsZ = 1u;
   counters.indices = finished * indicesPerPart;
-  const uint triangles = counters.indices / 3u;
-  listed_.groupsX = (min(triangles, kRasterRowInvocations) + uint(kRasterGroup) - 1u) / uint(kRasterGroup);
-  listed_.groupsY = (triangles + kRasterRowInvocations - 1u) / kRasterRowInvocations;
-  listed_.groupsZ = 1u;
-  listed_.triangles = triangles;
+  listed_.triangles = counters.indices / 3u;
   counters.instances = 1u;
   counters.firstIndex = 0u;
   counters.baseVertex = 0u;
