@@ -12,8 +12,8 @@ namespace {
 constexpr int kQueueCapacity = 1 << 19;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
 constexpr int kLargeGroups = 4096;
-/// That take one listed triangle after another: twice what an NVIDIA H200 runs at once. An indirect dispatch
-/// would make its driver wait for the number.
+/// That take one listed triangle after another: twice what an NVIDIA H200 runs at once. Only the GPU knows
+/// how many there are.
 constexpr int64_t kListedInvocations = 2 * 132 * 2048;
 /// Invocations that share a triangle whose bounding box has at most `pixels`; larger ones are queued, and
 /// cost a group each at least.

@@ -531,7 +531,9 @@ TEST_F(TessellatedSurfaces, TheVertexShaderEvaluatesStoredSamples) {
       EXPECT_LT(largestError(scene, *surface), 1e-5) << form;
       EXPECT_LT(surfaces::normalErrors(scene.surfaces, *surface).p99, 0.1) << form;
       expectNoCracks(scene, *surface, form);
-      const Image stored = render(scene, "tessellation/compute", {}, {96, 72}).product;
+      // The driver rasterises what vertex shaders make.
+      const Image stored =
+          render(scene, "tessellation/compute", text({{"raster", "hardware"}}), {96, 72}).product;
       EXPECT_LT(meanDifference(stored, render(scene, "tessellation/compute", given, {96, 72}).product), 1e-6)
           << form;
     }

@@ -40,8 +40,7 @@ PatchLane patchLane(uint invocation, uint laneBits) {
   return PatchLane(invocation >> laneBits, invocation & (lanes - 1u), lanes);
 }
 
-// A fixed number of groups takes one piece of work after another: an indirect dispatch, of as many groups as are needed, makes
-// NVIDIA's driver wait for the numbers (some 0.03 ms each on an H200).
+// A fixed number of groups takes one piece of work after another; only the GPU knows how much there is.
 uint invocationCount() { return gl_NumWorkGroups.x * uint(kTessellationGroup); }
 
 #ifdef VERTEX_PARALLEL
