@@ -88,8 +88,11 @@ class Planner {
     const std::vector<Variant> techniques =
         takeTurns(expand(descriptor_.techniques, catalogue_.techniques, "technique"));
     std::optional<Variant> reference;
-    if (descriptor_.reference)
-      reference = expand({*descriptor_.reference}, catalogue_.techniques, "reference")[0];
+    if (descriptor_.reference) {
+      // None if its values do not go together: a problem then, which is thrown below.
+      std::vector<Variant> references = expand({*descriptor_.reference}, catalogue_.techniques, "reference");
+      if (!references.empty()) reference = std::move(references[0]);
+    }
     const auto sizes = expandImages();
     problems_.throwIfAny();
 

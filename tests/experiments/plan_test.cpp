@@ -244,5 +244,18 @@ TEST(Plan, RefusesValuesThatDoNotGoTogetherWithLineAndMend) {
   }
 }
 
+TEST(Plan, RefusesAReferenceWhoseValuesDoNotGoTogether) {
+  Catalogue catalogue = fakeCatalogue();
+  catalogue.techniques["soft/sampled"].check = [](const ParameterValues& values) {
+    if (integerOf(values, "samples") == 256) throw Error("256 is too many", "samples", "take 64");
+  };
+  try {
+    planOf(validDescriptor(), catalogue);
+    FAIL() << "planned";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("256 is too many; take 64"));
+  }
+}
+
 }  // namespace
 }  // namespace limen::experiments
