@@ -66,12 +66,23 @@ inline const std::string& roundMeshFile() {
   return file;
 }
 
-/// The same sphere and a box beside it: with many triangles and with creases.
+/// A sheet folded along a ridge of three vertices, the middle one of which has a side on either hand and no
+/// more.
+inline const std::string& foldedMeshFile() {
+  static const TemporaryFolder folder;
+  static const std::string file = folder.write(
+      "fold.obj",
+      "v 0 1 0\nv 0 1 1\nv 0 1 2\nv -1 0 0\nv -1 0 1\nv -1 0 2\nv 0.5 0 0\nv 0.5 0 1\nv 0.5 0 2\n"
+      "f 1 2 5 4\nf 2 3 6 5\nf 2 1 7 8\nf 3 2 8 9\n");
+  return file;
+}
+
+/// The same sphere, a box and a folded sheet: with many triangles and with creases.
 inline const std::string& creasedMeshFile() {
   static const TemporaryFolder folder;
   static const std::string file = [] {
     std::string text;
-    for (const std::string& part : {roundMeshFile(), smallMeshFile()}) {
+    for (const std::string& part : {roundMeshFile(), smallMeshFile(), foldedMeshFile()}) {
       std::ifstream in(part, std::ios::binary);
       const auto first = std::count(text.begin(), text.end(), 'v');
       for (std::string word; in >> word;) {
