@@ -142,12 +142,13 @@ Deviation deviationOf(const PatchSet& set, const TessellatedSurface& tessellatio
   return out;
 }
 
-Spread normalErrors(const PatchSet& set, const TessellatedSurface& tessellation) {
+Spread normalErrors(const PatchSet& set, const TessellatedSurface& tessellation, NormalsOf of) {
   std::vector<std::vector<double>> parts(coreCount());
   onAllCores(tessellation.positions.size(), [&](size_t thread, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      const SurfaceNormal exact =
-          normalAt(set, set.patches[tessellation.patches[i]], tessellation.parameters[i]);
+      Patch patch = set.patches[tessellation.patches[i]];
+      if (of == NormalsOf::Geometry) patch.normalDegree = 0;
+      const SurfaceNormal exact = normalAt(set, patch, tessellation.parameters[i]);
       if (exact.rung == NormalRung::None) continue;
       const dvec3 drawn(tessellation.normals[i]);
       // Stable for small angles, unlike the arc cosine.

@@ -27,8 +27,14 @@ struct Deviation {
 Deviation deviationOf(const PatchSet& set, const TessellatedSurface& tessellation,
                       const DeviationSettings& settings = {});
 
+/// Which normals of a patch vertices are compared with.
+enum class NormalsOf {
+  Field,    ///< those that it is shaded with: its own normal field, if it has one
+  Geometry  ///< those of its derivatives
+};
 /// Angles [degree] between vertex normals and those of the surface; of vertices where it has one.
-Spread normalErrors(const PatchSet& set, const TessellatedSurface& tessellation);
+Spread normalErrors(const PatchSet& set, const TessellatedSurface& tessellation,
+                    NormalsOf of = NormalsOf::Field);
 
 /// What would let the background through, or draw a place twice. Of patches that were drawn.
 struct Cracks {

@@ -77,7 +77,9 @@ MetricResult measureNormals(const ComparisonInput& input, const perception::NoMe
   const surfaces::Spread found = surfaces::normalErrors(*input.patches, *input.tessellation);
   MetricResult out;
   out.value = found.most;
-  out.figures = {found.mean, found.p99, found.most};
+  const surfaces::Spread bent =
+      surfaces::normalErrors(*input.patches, *input.tessellation, surfaces::NormalsOf::Geometry);
+  out.figures = {found.mean, found.p99, found.most, bent.mean, bent.p99, bent.most};
   out.evaluatedPixels = static_cast<int64_t>(input.tessellation->positions.size());
   return out;
 }
@@ -109,13 +111,21 @@ const RegisteredMetric<SurfaceDeviationSettings> kSurfaceDeviationRegistered{
 
 const RegisteredMetric<perception::NoMetricSettings> kSurfaceNormalsRegistered{
     {.name = "surface_normals",
-     .summary = "angle between vertex normals and those of the surface",
+     .version = 2,
+     .summary = "angle between vertex normals and those that the surface is shaded with, and those of its "
+                "derivatives (`geometry`)",
      .source = "bench",
      .title = "Error of vertex normals, largest",
      .unit = "degree",
      .figures = {{"mean", "Error of vertex normals, mean", "degree", Direction::LowerIsBetter},
                  {"p99", "Error of vertex normals, 99th percentile", "degree", Direction::LowerIsBetter},
-                 {"max", "Error of vertex normals, largest", "degree", Direction::LowerIsBetter}},
+                 {"max", "Error of vertex normals, largest", "degree", Direction::LowerIsBetter},
+                 {"geometry_mean", "Angle to the geometry's normals, mean", "degree",
+                  Direction::LowerIsBetter},
+                 {"geometry_p99", "Angle to the geometry's normals, 99th percentile", "degree",
+                  Direction::LowerIsBetter},
+                 {"geometry_max", "Angle to the geometry's normals, largest", "degree",
+                  Direction::LowerIsBetter}},
      .needsTessellation = true,
      .needsReference = false},
     &measureNormals};

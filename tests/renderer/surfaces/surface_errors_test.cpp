@@ -6,6 +6,7 @@
 #include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/patch_builder.h"
+#include "renderer/surfaces/pn_set.h"
 
 namespace limen::surfaces {
 namespace {
@@ -75,6 +76,23 @@ TEST(SurfaceErrors, NormalsAreComparedAsAngles) {
   TessellatedSurface surface = tessellated(set, {{2, 2, 2, 2}, {2, 2, 2, 2}});
   surface.normals[3] = {std::sin(0.02F), 0.0F, std::cos(0.02F)};
   EXPECT_NEAR(normalErrors(set, surface).most, glm::degrees(0.02), 1e-4);
+}
+
+// An octahedron's flat faces with normals from its centre: at a corner, the angle of (1, 0, 0) and (1, 1, 1).
+TEST(SurfaceErrors, NormalFieldsAreComparedWithTheGeometry) {
+  BaseMesh mesh;
+  mesh.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.cornerNormals = {{mesh.positions[0], mesh.positions[1], mesh.positions[2]}};
+  const PatchSet set = phongSet(mesh, 0.0);
+  TessellatedSurface surface = tessellated(set, {{4, 4, 4, 4}});
+  for (size_t i = 0; i < surface.normals.size(); ++i)
+    surface.normals[i] =
+        glm::normalize(surface.positions[i]);  // as the field's: of a sphere about the centre
+  EXPECT_LT(normalErrors(set, surface).most, 1e-4);
+  const Spread bent = normalErrors(set, surface, NormalsOf::Geometry);
+  EXPECT_NEAR(bent.most, glm::degrees(std::acos(1.0 / std::sqrt(3.0))), 1e-4);
+  EXPECT_LT(bent.mean, bent.most);
 }
 
 TEST(SurfaceErrors, CommonSidesOfEqualFactorsHaveNoCracks) {
