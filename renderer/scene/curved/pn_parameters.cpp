@@ -46,12 +46,12 @@ const SettingsTable<PhongForm>& PhongForm::table() {
 
 const SettingsTable<SmoothedForm>& SmoothedForm::table() {
   static const SettingsTable<SmoothedForm> kTable = {
-      {&SmoothedForm::pieces, "pieces", {1, 8}, "", kPiecesHelp}};
+      {&SmoothedForm::pieces, "pieces", {1, 4}, "", kPiecesHelp}};
   return kTable;
 }
 
 const SettingsTable<Png1Form>& Png1Form::table() {
-  static const SettingsTable<Png1Form> kTable = {{&Png1Form::pieces, "pieces", {1, 8}, "", kPiecesHelp}};
+  static const SettingsTable<Png1Form> kTable = {{&Png1Form::pieces, "pieces", {1, 4}, "", kPiecesHelp}};
   return kTable;
 }
 
