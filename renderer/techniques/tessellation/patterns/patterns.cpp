@@ -20,6 +20,14 @@
 namespace limen::techniques {
 namespace {
 
+/// Of the sides that a patch of this domain has; 0 for the rest.
+surfaces::Factors factorsOf(uint32_t packed, surfaces::Domain domain) {
+  surfaces::Factors out{};
+  for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domain)); ++side)
+    out[side] = static_cast<int>(packed >> 8 * side & 255U);
+  return out;
+}
+
 /// Who issues what.
 enum class PatternDraw { Immediate, Instanced, MultiDraw };
 constexpr EnumNames<PatternDraw, 3> enumNames(PatternDraw) {
@@ -198,12 +206,8 @@ class RefinementPatterns : public Technique {
     std::map<std::pair<surfaces::Domain, surfaces::Factors>, std::vector<uint32_t>> byPattern;
     for (uint32_t i = 0; i < factors.size(); ++i) {
       if (factors[i].segments == 0) continue;
-      surfaces::Factors own{};
-      int most = 1;
-      for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domains_[i])); ++side) {
-        own[side] = static_cast<int>(factors[i].segments >> 8 * side & 255U);
-        most = std::max(most, own[side]);
-      }
+      surfaces::Factors own = factorsOf(factors[i].segments, domains_[i]);
+      const int most = *std::max_element(own.begin(), own.end());
       if (settings_.adapted())
         for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domains_[i])); ++side)
           own[side] = most;
@@ -264,12 +268,8 @@ class RefinementPatterns : public Technique {
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
     for (size_t i = 0; i < factors.size(); ++i) {
       if (factors[i].segments == 0) continue;
-      surfaces::Factors own{};
-      int most = 1;
-      for (uint32_t side = 0; side < static_cast<uint32_t>(surfaces::sidesOf(domains_[i])); ++side) {
-        own[side] = static_cast<int>(factors[i].segments >> 8 * side & 255U);
-        most = std::max(most, own[side]);
-      }
+      surfaces::Factors own = factorsOf(factors[i].segments, domains_[i]);
+      const int most = *std::max_element(own.begin(), own.end());
       triangles +=
           settings_.adapted() ? 2 * int64_t{most} * most : surfaces::patternOf(domains_[i], own).triangles;
     }
