@@ -26,9 +26,16 @@ struct SurfaceMaterial {  // std430
   float patternContrast;
   int patternOctaves;
   uint patchIndex;
+  vec3 mirror;          // share reflected; 0: none
+  float glossRad;       // half-angle of the cone of directions that it comes from
+  vec3 transmittance;   // share refracted; 0: opaque
+  float refractiveIndex;
+  uint fresnel;  // 1: Schlick's rule for `mirror`
+  uint unused0, unused1, unused2;
 };
 #ifdef __cplusplus
-static_assert(sizeof(SurfaceMaterial) == 48 && offsetof(SurfaceMaterial, surface) == 12 &&
+static_assert(sizeof(SurfaceMaterial) == 96 && offsetof(SurfaceMaterial, mirror) == 48 &&
+              offsetof(SurfaceMaterial, transmittance) == 64 && offsetof(SurfaceMaterial, fresnel) == 80 && offsetof(SurfaceMaterial, surface) == 12 &&
               offsetof(SurfaceMaterial, patternOrigin) == 16 && offsetof(SurfaceMaterial, pattern) == 32 &&
               offsetof(SurfaceMaterial, patchIndex) == 44);
 #endif
@@ -189,6 +196,11 @@ const uint kReceiversFromReceiversUnit = 0u;
 const uint kReceiversFromNormalsUnit = 1u;
 const uint kReceiversFromImage = 0u;
 const uint kReceiversFromPlanesImage = 1u;
+
+// Rays from mirrors.
+const uint kMirrorRaysIdsUnit = 0u;
+const uint kMirrorRaysOriginsImage = 0u;
+const uint kMirrorRaysDirectionsImage = 1u;
 
 // Shaded picture.
 const uint kShadedIdsUnit = 0u;

@@ -10,19 +10,16 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/shadow_map.h"
+#include "renderer/frame/surface_point.h"
 
 namespace limen::frame {
 
 gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& frame) {
   const bool lit = !frame.scene().lights.empty();
-  const SurfaceBuffers& surface = frame.gpuScene().surface();
-  gl::ShaderDefines defines;
+  gl::ShaderDefines defines = surfaceDefines(frame, setting.smoothNormals);
   if (lit) defines["LIT"] = "1";
   if (lit && setting.shadow) defines["SHADOW"] = "1";
   if (setting.pattern) defines["PATTERN"] = "1";
-  if (setting.smoothNormals && (surface.hasNormals() || surface.hasAttributes())) defines["SMOOTH"] = "1";
-  if (surface.hasNormals()) defines["NORMALS"] = "1";
-  if (surface.hasAttributes()) defines["ATTRIBUTES"] = "1";
   return defines;
 }
 
@@ -69,11 +66,6 @@ Shaded::Shaded(Frame& frame, ShadedSetting setting)
 }
 
 void configureShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting) {
-  const glm::dmat4& toCamera = frame.anchorToCamera();
-  program.set("anchorToCamera", glm::mat4(toCamera));
-  program.set("cameraToAnchor", glm::mat4(glm::inverse(toCamera)));
-  program.set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
-  program.set("sizePx", frame.sizePx());
   program.set("background", glm::vec3(static_cast<float>(setting.background)));
   program.set("ambient", static_cast<float>(setting.ambient));
   program.set("diffuse", static_cast<float>(setting.diffuse));
@@ -81,7 +73,7 @@ void configureShading(const gl::Program& program, const Frame& frame, const Shad
   program.set("shininess", static_cast<float>(setting.shininess));
   const scene::Camera& seenBy =
       setting.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting.eyeDtS);
-  program.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
+  configureSurfacePoints(program, frame, seenBy);
   if (!frame.scene().lights.empty()) {
     // Seen from the scene's centre: apertures are for a distant light.
     const scene::AreaLight& light = frame.scene().lights[0];
@@ -90,8 +82,6 @@ void configureShading(const gl::Program& program, const Frame& frame, const Shad
                 static_cast<float>(std::atan2(0.5 * std::max(light.size.x, light.size.y), distance)));
     program.set("lightPosition", glm::vec3(light.centre - frame.gpuScene().anchor()));
   }
-  frame.geometry().bindStorage();
-  frame.gpuScene().surface().bindStorage();
 }
 
 void Shaded::make(Frame& frame) {

@@ -4,14 +4,10 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/aperture.glsl"
 #include "renderer/frame/pattern.glsl"
-#include "renderer/frame/scene_buffers.glsl"
-#include "renderer/frame/seen_point.glsl"
-#include "renderer/frame/surface_buffers.glsl"
+#include "renderer/frame/surface_point.glsl"
 
-uniform mat4 anchorToCamera, cameraToAnchor;
-uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform vec3 background;
-uniform vec3 lightPosition, eye;  // light's centre and the eye that sees highlights, relative to the anchor
+uniform vec3 lightPosition;  // of the light's centre, relative to the anchor
 uniform float ambient, diffuse, specular, shininess;
 uniform float sunRadius;  // angular radius of the light seen from the scene, rad
 
@@ -29,27 +25,6 @@ vec3 patterned(SurfaceMaterial material, vec3 position) {
 #else
   return material.albedo;
 #endif
-}
-
-// Normal of the surface that the triangle stands for, anchor space; `flat` where it has none of its own.
-vec3 shadingNormal(SurfaceMaterial material, uvec3 vertices, vec3 weights, vec3 flatNormal) {
-  vec3 normal = vec3(0.0);
-#ifdef ATTRIBUTES
-  if (material.surface == kSurfacePatch) {
-    const vec2 uv = weights.x * surfaceAttributes[vertices.x].xy + weights.y * surfaceAttributes[vertices.y].xy +
-                    weights.z * surfaceAttributes[vertices.z].xy;
-    normal = patchNormal(material.patchIndex, uv);
-  }
-#endif
-#ifdef NORMALS
-  if (material.surface != kSurfacePatch)
-    normal = weights.x * surfaceNormal(vertices.x) + weights.y * surfaceNormal(vertices.y) +
-             weights.z * surfaceNormal(vertices.z);
-#endif
-  // Scaled first: squares of a tiny patch's derivatives would leave float's range.
-  const float reach = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
-  if (!(reach > 0.0)) return flatNormal;
-  return normalize(normal / reach);
 }
 
 // Of a surface that the shares `sky` and `sun` of the light reach; unit vectors.
@@ -75,45 +50,33 @@ vec3 towardsLight(vec3 position, vec3 normal) {
   return normal;
 }
 
-// `id`: triangle that the pixel sees; 0xffffffff: none.
-vec3 shadedColour(ivec2 pixel, uint id) {
-  if (id == 0xffffffffu) return background;
-  const uvec3 vertices = sceneTriangle(id);
-  const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
-  const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
-  const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
-  const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
-  const vec3 position = (cameraToAnchor * vec4(seen.position, 1.0)).xyz;
-  const vec3 towardsEye = eye - position;
-  const vec3 view = dot(towardsEye, towardsEye) > 0.0 ? normalize(towardsEye) : vec3(0.0, 1.0, 0.0);
-  const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[id]];
-  vec3 normal = mat3(cameraToAnchor) * seen.normal;
-  // A triangle without area that a pixel sees all the same.
-  if (!(dot(normal, normal) > 0.5)) normal = view;
-  vec3 weights = vec3(0.0);
-#if defined(SMOOTH) || defined(ATTRIBUTES)
-  weights = barycentrics(a, b, c, seen.position);
-#endif
-#ifdef SMOOTH
-  normal = shadingNormal(material, vertices, weights, normal);
-  // The triangle decides between front and back; a shading normal bent past the silhouette keeps its side. Terrain
-  // has but one side: its skirts are lit as the border that they hang from, whichever way they are seen.
-  if (material.surface != kSurfaceAperture && dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
-#endif
-  const vec3 albedo = patterned(material, position);
-  float sky = 1.0, sun = 1.0;
-  const vec3 toLight = towardsLight(position, normal);
-#ifdef LIT
-  sun = material.surface == kSurfaceAperture ? 1.0 : sunShare(pixel, seen);
-#endif
+// Of a point that the share `sun` of the light reaches.
+vec3 pointColour(SurfacePoint point, float sun) {
+  const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[point.triangle]];
+  const vec3 toLight = towardsLight(point.position, point.normal);
+  float sky = 1.0;
 #ifdef ATTRIBUTES
   if (material.surface == kSurfaceAperture) {
-    const vec4 aperture = weights.x * surfaceAttributes[vertices.x] + weights.y * surfaceAttributes[vertices.y] +
-                          weights.z * surfaceAttributes[vertices.z];
-    const vec2 light = apertureLight(aperture, normal, toLight, sunRadius);
+    const uvec3 vertices = sceneTriangle(point.triangle);
+    const vec4 aperture = point.weights.x * surfaceAttributes[vertices.x] +
+                          point.weights.y * surfaceAttributes[vertices.y] +
+                          point.weights.z * surfaceAttributes[vertices.z];
+    const vec2 light = apertureLight(aperture, point.normal, toLight, sunRadius);
     sun = light.x;
     sky = light.y;
   }
 #endif
-  return litColour(albedo, normal, toLight, view, sky, sun);
+  return litColour(patterned(material, point.position), point.normal, toLight, point.view, sky, sun);
+}
+
+// `id`: triangle that the pixel sees; 0xffffffff: none.
+vec3 shadedColour(ivec2 pixel, uint id) {
+  if (id == 0xffffffffu) return background;
+  SeenPoint seen;
+  const SurfacePoint point = surfaceSeen(pixel, id, seen);
+  float sun = 1.0;
+#ifdef LIT
+  if (surfaceMaterials[surfaceMaterialOf[id]].surface != kSurfaceAperture) sun = sunShare(pixel, seen);
+#endif
+  return pointColour(point, sun);
 }

@@ -24,7 +24,8 @@ std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 a
     out.push_back({material.albedo, static_cast<uint32_t>(material.surface),
                    glm::vec3(pattern.origin - anchor), static_cast<float>(1.0 / pattern.size),
                    static_cast<uint32_t>(pattern.kind), static_cast<float>(pattern.contrast), pattern.octaves,
-                   material.patch});
+                   material.patch, material.mirror, material.glossRad, material.transmittance,
+                   material.refractiveIndex, material.fresnel ? 1U : 0U, 0, 0, 0});
   }
   return out;
 }

@@ -82,6 +82,14 @@ void feedExtras(Feed& out, const Scene& scene) {
       out.text("surface"), out.value(static_cast<uint64_t>(i));
       out.value(static_cast<int32_t>(material.surface)), out.value(material.patch);
     }
+    if (material.reflects()) {
+      out.text("mirror"), out.value(static_cast<uint64_t>(i)), out.vector(material.mirror);
+      out.value(static_cast<uint8_t>(material.fresnel)), out.value(material.glossRad);
+    }
+    if (material.refracts()) {
+      out.text("refraction"), out.value(static_cast<uint64_t>(i)), out.vector(material.transmittance);
+      out.value(material.refractiveIndex);
+    }
     const Pattern& pattern = material.pattern;
     if (pattern.kind == Pattern::Kind::None) continue;
     out.text("pattern"), out.value(static_cast<uint64_t>(i));
@@ -170,7 +178,13 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
-  for (const Part& part : parts) out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
+  for (const Part& part : parts) {
+    out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
+    const Material& material = materials[part.material];
+    if (material.reflects()) out.insert("mirrors");
+    if (material.reflects() && material.glossRad > 0.0F) out.insert("glossy_materials");
+    if (material.refracts()) out.insert("refractive_materials");
+  }
   return out;
 }
 

@@ -12,40 +12,10 @@
 #include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
 #include "experiments/base/settings_table.h"
+#include "renderer/scene/material.h"
 #include "renderer/surfaces/patch_set.h"
 
 namespace limen::scene {
-
-/// Solid texture: reflectance as a function of position in space. Factor of
-/// the albedo: 1 + contrast * s with s in [-1, 1]; the product is clamped to 0..1.
-struct Pattern {
-  enum class Kind {
-    None,
-    Checker,    ///< s = +1 and -1 in cubes of edge `size`
-    ValueNoise  ///< random values on a lattice of pitch `size`, interpolated (quintic); octaves halve both
-  };
-  Kind kind = Kind::None;
-  double size = 0.1;       ///< world units, > 0
-  double contrast = 0.5;   ///< 0..1
-  int octaves = 4;         ///< ValueNoise only
-  glm::dvec3 origin{0.0};  ///< a lattice point, world space
-};
-
-/// How a surface's normal or lighting is determined if not by its triangles alone.
-enum class SurfaceKind {
-  Mesh,          ///< vertex normals if the mesh has them, otherwise flat
-  BicubicPatch,  ///< normal of the patch Scene::patches[Material::patch] at the parameters in attributes.xy
-  Aperture       ///< lit through a horizon cone: attributes = (axis, angle in rad) per vertex
-};
-
-/// Diffuse surface. Further properties are added with the techniques that need them.
-struct Material {
-  std::string name;
-  glm::vec3 albedo{0.7F};  ///< linear reflectance, 0..1
-  Pattern pattern{};
-  SurfaceKind surface = SurfaceKind::Mesh;
-  uint32_t patch = 0;  ///< BicubicPatch only
-};
 
 /// A run of triangles with one material.
 struct Part {
@@ -190,7 +160,8 @@ struct Scene {
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
-  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces".
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces"; of its
+  /// parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
 

@@ -15,15 +15,22 @@ constexpr int kGroundCells = 32;
 }  // namespace
 
 void addPart(Scene& scene, const std::string& name, const Mesh& mesh, glm::vec3 albedo, Role role) {
+  Material material;
+  material.name = name;
+  material.albedo = albedo;
+  addPart(scene, mesh, material, role);
+}
+
+void addPart(Scene& scene, const Mesh& mesh, const Material& material, Role role) {
   Part part;
-  part.name = name;
+  part.name = material.name;
   part.firstTriangle = static_cast<uint32_t>(scene.mesh.triangles.size());
   part.triangleCount = static_cast<uint32_t>(mesh.triangles.size());
   part.material = static_cast<uint32_t>(scene.materials.size());
   part.receiverOnly = role == Role::ReceiverOnly;
   append(scene.mesh, mesh);
   scene.parts.push_back(std::move(part));
-  scene.materials.push_back({name, albedo});
+  scene.materials.push_back(material);
 }
 
 void addGround(Scene& scene, double size, glm::dvec3 centre) {

@@ -13,6 +13,9 @@ enum class Role { Caster, ReceiverOnly };
 void addPart(Scene& scene, const std::string& name, const Mesh& mesh, glm::vec3 albedo,
              Role role = Role::Caster);
 
+/// As above, with any material; the part bears its name.
+void addPart(Scene& scene, const Mesh& mesh, const Material& material, Role role = Role::Caster);
+
 /// Adds a square ground plane facing +y as a part "ground" that only receives.
 void addGround(Scene& scene, double size, glm::dvec3 centre = glm::dvec3(0.0));
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rays that leave the mirrors which pixels see. See mirror_rays.h.
+#include "renderer/frame/frame_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kMirrorRaysIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kMirrorRaysOriginsImage, rgba32f) uniform writeonly image2D origins;
+layout(binding = kMirrorRaysDirectionsImage, rgba32f) uniform writeonly image2D directions;
+
+uniform ivec2 sizePx;
+#include "renderer/frame/mirrored.glsl"
+#include "renderer/frame/surface_point.glsl"
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  const uint id = texelFetch(triangleIds, pixel, 0).x;
+  vec4 origin = vec4(0.0), direction = vec4(0.0);
+  if (id != 0xffffffffu && surfaceMaterials[surfaceMaterialOf[id]].mirror != vec3(0.0)) {
+    SeenPoint seen;
+    const SurfacePoint point = surfaceSeen(pixel, id, seen);
+    origin = vec4(point.position, 1.0);
+    direction = vec4(mirrored(point.view, point.normal, point.flatNormal),
+                     clamp(dot(point.view, point.normal), 0.0, 1.0));
+  }
+  imageStore(origins, pixel, origin);
+  imageStore(directions, pixel, direction);
+}

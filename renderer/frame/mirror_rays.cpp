@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/frame/mirror_rays.h"
+
+#include <epoxy/gl.h>
+
+#include "renderer/frame/frame_bindings.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/surface_point.h"
+
+namespace limen::frame {
+
+MirrorRays::MirrorRays(Frame& frame)
+    : program_(frame.context().programs().compute("renderer/frame/mirror_rays.comp.glsl",
+                                                  surfaceDefines(frame, true))),
+      origins_(gl::Format::RGBA32F, frame.sizePx()),
+      directions_(gl::Format::RGBA32F, frame.sizePx()) {
+  frame.passes().setBytesHeld("frame/mirror_rays", origins_.bytes() + directions_.bytes());
+}
+
+void MirrorRays::make(Frame& frame) {
+  const gl::Texture& ids = frame.get<TriangleIds>().texture();
+  const auto scope = frame.passes().open("frame/mirror_rays");
+  configureSurfacePoints(program_, frame, frame.camera());
+  ids.bindTexture(kMirrorRaysIdsUnit);
+  origins_.bindImage(kMirrorRaysOriginsImage, gl::Access::Write);
+  directions_.bindImage(kMirrorRaysDirectionsImage, gl::Access::Write);
+  program_.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+}  // namespace limen::frame
