@@ -14,9 +14,8 @@ const float kEmptyDepth = 1e30f;
 // Scene geometry (GpuScene).
 const uint kScenePositionsBuffer = 0u;
 const uint kSceneIndicesBuffer = 1u;
-const uint kSceneAlbedosBuffer = 2u;
 
-// Surfaces (SurfaceBuffers).
+// Surfaces (SurfaceBuffers). 6 and 7 are left to the tree of rays.
 struct SurfaceMaterial {  // std430
   vec3 albedo;
   uint surface;        // kSurface...
@@ -25,19 +24,19 @@ struct SurfaceMaterial {  // std430
   uint pattern;  // kPattern...
   float patternContrast;
   int patternOctaves;
-  uint patchIndex;
-  vec3 mirror;          // share reflected; 0: none
-  float glossRad;       // half-angle of the cone of directions that it comes from
-  vec3 transmittance;   // share refracted; 0: opaque
+  uint patchPoints;    // index of its first control point among the attributes
+  vec3 mirror;         // share reflected; 0: none
+  float glossRad;      // half-angle of the cone of directions that it comes from
+  vec3 transmittance;  // share refracted; 0: opaque
   float refractiveIndex;
   uint fresnel;  // 1: Schlick's rule for `mirror`
   uint unused0, unused1, unused2;
 };
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceMaterial) == 96 && offsetof(SurfaceMaterial, mirror) == 48 &&
-              offsetof(SurfaceMaterial, transmittance) == 64 && offsetof(SurfaceMaterial, fresnel) == 80 && offsetof(SurfaceMaterial, surface) == 12 &&
-              offsetof(SurfaceMaterial, patternOrigin) == 16 && offsetof(SurfaceMaterial, pattern) == 32 &&
-              offsetof(SurfaceMaterial, patchIndex) == 44);
+              offsetof(SurfaceMaterial, transmittance) == 64 && offsetof(SurfaceMaterial, fresnel) == 80 &&
+              offsetof(SurfaceMaterial, surface) == 12 && offsetof(SurfaceMaterial, patternOrigin) == 16 &&
+              offsetof(SurfaceMaterial, pattern) == 32 && offsetof(SurfaceMaterial, patchPoints) == 44);
 #endif
 const uint kSurfaceMesh = 0u;
 const uint kSurfacePatch = 1u;
@@ -45,11 +44,10 @@ const uint kSurfaceAperture = 2u;
 const uint kPatternNone = 0u;
 const uint kPatternChecker = 1u;
 const uint kPatternNoise = 2u;
+const uint kSurfaceMaterialsBuffer = 2u;
 const uint kSurfaceNormalsBuffer = 3u;
-const uint kSurfaceAttributesBuffer = 4u;
+const uint kSurfaceAttributesBuffer = 4u;  // of vertices; then control points of patches, 16 each
 const uint kSurfaceTriangleMaterialsBuffer = 5u;
-const uint kSurfaceMaterialsBuffer = 6u;
-const uint kSurfacePatchesBuffer = 7u;
 
 // ComputeRaster.
 struct RasterQueueHeader {  // std430; then uvec2: triangle, first row of the band in its bounding box

@@ -3,6 +3,9 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
+#ifdef CHANNEL_ALBEDO
+#include "renderer/frame/surface_buffers.glsl"
+#endif
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kGBufferIdsUnit) uniform usampler2D triangleIds;
@@ -33,7 +36,7 @@ void main() {
 #endif
   if (id != kNone) {
 #ifdef CHANNEL_ALBEDO
-    result = vec4(unpackUnorm4x8(sceneAlbedos[id]).rgb, 1.0);
+    result = vec4(surfaceMaterials[surfaceMaterialOf[id]].albedo, 1.0);
 #else
     const uvec3 vertices = sceneTriangle(id);
     const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;

@@ -139,7 +139,10 @@ GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
   frame.passes().setBytesHeld("frame/" + setting_.key(), texture_.bytes());
 }
 
-void GBufferChannel::make(Frame& frame) { resolve(frame, program_, texture_, "frame/" + setting_.key()); }
+void GBufferChannel::make(Frame& frame) {
+  if (setting_.channel == Channel::Albedo) frame.gpuScene().surface().bindStorage();
+  resolve(frame, program_, texture_, "frame/" + setting_.key());
+}
 
 Receivers::Receivers(Frame& frame)
     : program_(frame.context().programs().compute(

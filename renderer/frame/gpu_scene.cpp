@@ -26,20 +26,6 @@ std::vector<glm::uvec3> joinedIndices(const scene::Scene& scene) {
   return out;
 }
 
-/// One RGBA8-packed albedo per triangle: constant over it, so vertices need none.
-std::vector<uint32_t> albedos(const scene::Scene& scene) {
-  std::vector<uint32_t> out(scene.mesh.triangles.size() + scene.coarser.triangles.size());
-  const auto fill = [&](const scene::TriangleRange& range, uint32_t material) {
-    const uint32_t packed = glm::packUnorm4x8(glm::vec4(scene.materials[material].albedo, 1.0F));
-    std::fill_n(out.begin() + range.first, range.count, packed);
-  };
-  for (const scene::Part& part : scene.parts) fill({part.firstTriangle, part.triangleCount}, part.material);
-  for (const scene::LodObject& object : scene.lodObjects)
-    for (int level = 1; level < static_cast<int>(object.levels.size()); ++level)
-      fill(scene.triangles(object, level), scene.parts[object.part].material);
-  return out;
-}
-
 glm::dvec3 anchorOf(const scene::Bounds& bounds) {
   return bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
 }
@@ -54,7 +40,6 @@ GpuScene::GpuScene(const scene::Scene& scene)
       vertexCount_(static_cast<uint32_t>(scene.mesh.positions.size() + scene.coarser.positions.size())),
       positions_(relativePositions(scene, anchor_)),
       indices_(joinedIndices(scene)),
-      triangleAlbedo_(albedos(scene)),
       firstTriangle_(std::vector<glm::uvec2>{glm::uvec2(0)}) {
   glCreateVertexArrays(1, &vertexArray_);
   glVertexArrayAttribFormat(vertexArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
@@ -71,8 +56,8 @@ GpuScene::GpuScene(const scene::Scene& scene)
 GpuScene::~GpuScene() { glDeleteVertexArrays(1, &vertexArray_); }
 
 int64_t GpuScene::bytes() const {
-  return positions_.bytes() + indices_.bytes() + triangleAlbedo_.bytes() +
-         (surface_ ? surface_->bytes() : 0) + (rays_ ? rays_->bytes() : 0);
+  return positions_.bytes() + indices_.bytes() + (surface_ ? surface_->bytes() : 0) +
+         (rays_ ? rays_->bytes() : 0);
 }
 
 const SurfaceBuffers& GpuScene::surface() const {
@@ -109,7 +94,6 @@ void GpuScene::draw(const TriangleRanges* ranges, const gl::Buffer* positions) c
 void GpuScene::bindStorage(const gl::Buffer* positions) const {
   (positions ? *positions : positions_).bindStorage(kScenePositionsBuffer);
   indices_.bindStorage(kSceneIndicesBuffer);
-  triangleAlbedo_.bindStorage(kSceneAlbedosBuffer);
 }
 
 }  // namespace limen::frame

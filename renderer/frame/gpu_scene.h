@@ -41,7 +41,7 @@ class GpuScene {
   /// draw's first triangle: it and gl_PrimitiveID sum to the triangle's number. `positions`, if given,
   /// replaces the vertices' positions (same layout).
   void draw(const TriangleRanges* ranges = nullptr, const gl::Buffer* positions = nullptr) const;
-  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices, albedos.
+  /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices.
   void bindStorage(const gl::Buffer* positions = nullptr) const;
   const gl::Buffer& positions() const { return positions_; }  ///< three floats per vertex
   /// Made on first use.
@@ -55,7 +55,7 @@ class GpuScene {
   glm::dvec3 anchor_;
   double diagonal_;
   uint32_t triangleCount_, vertexCount_, vertexArray_ = 0;
-  gl::Buffer positions_, indices_, triangleAlbedo_, firstTriangle_;
+  gl::Buffer positions_, indices_, firstTriangle_;
   mutable std::optional<SurfaceBuffers> surface_;
   mutable std::unique_ptr<ray_tracing::RayScene> rays_;
 };

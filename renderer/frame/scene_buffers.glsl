@@ -4,7 +4,6 @@
 
 layout(std430, binding = kScenePositionsBuffer) readonly buffer Positions { float scenePositions[]; };
 layout(std430, binding = kSceneIndicesBuffer) readonly buffer Indices { uint sceneIndices[]; };
-layout(std430, binding = kSceneAlbedosBuffer) readonly buffer Albedos { uint sceneAlbedos[]; };
 
 #ifndef POSITION_WORDS
 #define POSITION_WORDS 3u  // floats of a vertex; the first three are its position

@@ -17,6 +17,10 @@ static_assert(shaderHas(kPatternNone, scene::Pattern::Kind::None) &&
               shaderHas(kPatternChecker, scene::Pattern::Kind::Checker) &&
               shaderHas(kPatternNoise, scene::Pattern::Kind::ValueNoise));
 
+size_t vertexCount(const scene::Scene& scene) {
+  return scene.mesh.positions.size() + scene.coarser.positions.size();
+}
+
 std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 anchor) {
   std::vector<SurfaceMaterial> out;
   for (const scene::Material& material : scene.materials) {
@@ -24,8 +28,9 @@ std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 a
     out.push_back({material.albedo, static_cast<uint32_t>(material.surface),
                    glm::vec3(pattern.origin - anchor), static_cast<float>(1.0 / pattern.size),
                    static_cast<uint32_t>(pattern.kind), static_cast<float>(pattern.contrast), pattern.octaves,
-                   material.patch, material.mirror, material.glossRad, material.transmittance,
-                   material.refractiveIndex, material.fresnel ? 1U : 0U, 0, 0, 0});
+                   static_cast<uint32_t>(vertexCount(scene)) + 16 * material.patch, material.mirror,
+                   material.glossRad, material.transmittance, material.refractiveIndex,
+                   material.fresnel ? 1U : 0U, 0, 0, 0});
   }
   return out;
 }
@@ -54,8 +59,10 @@ std::vector<Value> joined(const scene::Scene& scene, std::vector<Value> scene::M
   return out;
 }
 
-std::vector<glm::vec4> patchPointsOf(const scene::Scene& scene, glm::dvec3 anchor) {
-  std::vector<glm::vec4> out;
+/// Of vertices; then, if there are patches, their control points.
+std::vector<glm::vec4> attributesOf(const scene::Scene& scene, glm::dvec3 anchor) {
+  std::vector<glm::vec4> out = joined(scene, &scene::Mesh::attributes);
+  if (!scene.patches.empty()) out.resize(vertexCount(scene), glm::vec4(0.0F));
   for (const scene::BicubicPatch& patch : scene.patches)
     for (const glm::dvec3& point : patch.points) out.emplace_back(glm::vec3(point - anchor), 1.0F);
   return out;
@@ -67,22 +74,19 @@ SurfaceBuffers::SurfaceBuffers(const scene::Scene& scene, glm::dvec3 anchor)
     : hasNormals_(!scene.mesh.normals.empty() || !scene.coarser.normals.empty()),
       hasAttributes_(!scene.mesh.attributes.empty() || !scene.coarser.attributes.empty()),
       normals_(joined(scene, &scene::Mesh::normals)),
-      attributes_(joined(scene, &scene::Mesh::attributes)),
+      attributes_(attributesOf(scene, anchor)),
       triangleMaterials_(triangleMaterialsOf(scene)),
-      materials_(materialsOf(scene, anchor)),
-      patches_(patchPointsOf(scene, anchor)) {}
+      materials_(materialsOf(scene, anchor)) {}
 
 void SurfaceBuffers::bindStorage() const {
   normals_.bindStorage(kSurfaceNormalsBuffer);
   attributes_.bindStorage(kSurfaceAttributesBuffer);
   triangleMaterials_.bindStorage(kSurfaceTriangleMaterialsBuffer);
   materials_.bindStorage(kSurfaceMaterialsBuffer);
-  patches_.bindStorage(kSurfacePatchesBuffer);
 }
 
 int64_t SurfaceBuffers::bytes() const {
-  return normals_.bytes() + attributes_.bytes() + triangleMaterials_.bytes() + materials_.bytes() +
-         patches_.bytes();
+  return normals_.bytes() + attributes_.bytes() + triangleMaterials_.bytes() + materials_.bytes();
 }
 
 }  // namespace limen::frame

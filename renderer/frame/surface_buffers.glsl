@@ -6,7 +6,6 @@ layout(std430, binding = kSurfaceNormalsBuffer) readonly buffer Normals { float 
 layout(std430, binding = kSurfaceAttributesBuffer) readonly buffer Attributes { vec4 surfaceAttributes[]; };
 layout(std430, binding = kSurfaceTriangleMaterialsBuffer) readonly buffer TriangleMaterials { uint surfaceMaterialOf[]; };
 layout(std430, binding = kSurfaceMaterialsBuffer) readonly buffer Materials { SurfaceMaterial surfaceMaterials[]; };
-layout(std430, binding = kSurfacePatchesBuffer) readonly buffer Patches { vec4 patchPoints[]; };  // 16 a patch, i + 4 j
 
 vec3 surfaceNormal(uint vertex) {
   return vec3(surfaceNormals[3u * vertex], surfaceNormals[3u * vertex + 1u], surfaceNormals[3u * vertex + 2u]);
@@ -22,13 +21,14 @@ vec4 splineSlope(float t) {
   return vec4(-s * s, 3.0 * t * t - 4.0 * t, -3.0 * s * s + 4.0 * s, t * t) / 2.0;
 }
 
-// Unnormalised normal of a bicubic B-spline patch: cross product of its derivatives.
-vec3 patchNormal(uint index, vec2 uv) {
+// Unnormalised normal of a bicubic B-spline patch whose control points, i + 4 j, begin at attribute `first`: cross product
+// of its derivatives.
+vec3 patchNormal(uint first, vec2 uv) {
   const vec4 bu = splineBasis(uv.x), bv = splineBasis(uv.y), du = splineSlope(uv.x), dv = splineSlope(uv.y);
   vec3 alongU = vec3(0.0), alongV = vec3(0.0);
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
-      const vec3 point = patchPoints[16u * index + uint(i + 4 * j)].xyz;
+      const vec3 point = surfaceAttributes[first + uint(i + 4 * j)].xyz;
       alongU += du[i] * bv[j] * point;
       alongV += bu[i] * dv[j] * point;
     }

@@ -20,7 +20,7 @@ class SurfaceBuffers {
 
  private:
   bool hasNormals_, hasAttributes_;
-  gl::Buffer normals_, attributes_, triangleMaterials_, materials_, patches_;
+  gl::Buffer normals_, attributes_, triangleMaterials_, materials_;
 };
 
 }  // namespace limen::frame

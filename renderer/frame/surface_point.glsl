@@ -26,7 +26,7 @@ vec3 shadingNormal(SurfaceMaterial material, uvec3 vertices, vec3 weights, vec3 
   if (material.surface == kSurfacePatch) {
     const vec2 uv = weights.x * surfaceAttributes[vertices.x].xy + weights.y * surfaceAttributes[vertices.y].xy +
                     weights.z * surfaceAttributes[vertices.z].xy;
-    normal = patchNormal(material.patchIndex, uv);
+    normal = patchNormal(material.patchPoints, uv);
   }
 #endif
 #ifdef NORMALS

@@ -15,6 +15,7 @@ const uint kRayTrianglesBuffer = 7u;
 // Levels of the tree, and entries of the traversal's stack.
 const int kRayLevels = 20;
 const uint kRayNoTriangle = 0xffffffffu;
+const float kRayFarthest = 3.0e38f;  // `far` of a ray without end
 
 // Rays given in a buffer (RayBatch).
 const uint kRayBatchRaysBuffer = 0u;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mirrored rays through the tree of the scene's triangles, on the GPU: what modern ray tracers do, and the
+// rival of all others. The tree is built before the first frame. Source of the light model: Roger 2008,
+// sections 1.2.2 and 3.1.
+#include <epoxy/gl.h>
+
+#include <optional>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/frame/mirror_rays.h"
+#include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/techniques/reflections/reflection_bindings.h"
+#include "renderer/techniques/reflections/reflection_picture.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kTracePass = "reflections/trace";
+
+struct RayTracedSettings {
+  int bounces = 1;
+  double leastShare = 0.0;
+  frame::ShadedSetting shading;
+  static const SettingsTable<RayTracedSettings>& table() {
+    using S = RayTracedSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::bounces,
+         "bounces",
+         {1, 16},
+         "",
+         "Mirrors that light meets on its way to the eye at most",
+         "Roger 2008, section 3.5"},
+        {&S::leastShare,
+         "least_share",
+         {0.0, 1.0},
+         "",
+         "Largest share of its light at which a ray is not followed further",
+         "Roger 2008, section 1.2.2"},
+        shadingBinding(&S::shading)};
+    return kTable;
+  }
+};
+
+class RayTracedReflections : public Technique {
+ public:
+  using Settings = RayTracedSettings;
+  explicit RayTracedReflections(const RayTracedSettings& settings)
+      : settings_(settings), picture_(settings.shading) {}
+
+  void prepare(frame::Frame& frame) override {
+    program_ =
+        &frame.context().programs().compute("renderer/techniques/reflections/ray_traced/ray_traced.comp.glsl",
+                                            shadingDefines(settings_.shading, frame));
+    reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    frame.passes().setBytesHeld(kTracePass,
+                                reflected_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
+    picture_.prepare(frame);
+  }
+
+  void render(frame::Frame& frame) override {
+    const frame::MirrorRays& rays = frame.get<frame::MirrorRays>();
+    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    {
+      const auto scope = frame.passes().open(kTracePass);
+      frame::configureShading(*program_, frame, settings_.shading);
+      frame.gpuScene().rays(frame.context()).bind(*program_);
+      program_->set("bounces", settings_.bounces);
+      program_->set("leastShare", static_cast<float>(settings_.leastShare));
+      rays.origins().bindTexture(kReflectionOriginsUnit);
+      rays.directions().bindTexture(kReflectionDirectionsUnit);
+      ids.bindTexture(kReflectionIdsUnit);
+      reflected_->bindImage(kReflectionImage, gl::Access::Write);
+      program_->dispatch(frame.sizePx());
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
+    picture_.compose(frame, *reflected_);
+  }
+
+  const gl::Texture& product() const override { return picture_.texture(); }
+
+ private:
+  RayTracedSettings settings_;
+  ReflectionPicture picture_;
+  const gl::Program* program_ = nullptr;
+  std::optional<gl::Texture> reflected_;
+};
+
+const RegisteredTechnique<RayTracedReflections> kRegistered{
+    {.name = "reflections/ray_traced",
+     .version = 1,
+     .summary = "Mirrors by rays through a tree of the scene's triangles",
+     .source = "Roger 2008, sections 1.2.2 and 3.1 (R-59)",
+     .product = ProductKind::Colour,
+     .needs = {"mirrors"}}};
+
+}  // namespace
+}  // namespace limen::techniques
