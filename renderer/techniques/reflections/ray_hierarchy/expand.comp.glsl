@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One step down the hierarchy for all pairs of nodes and triangles (Roger 2008, section 3.3.3): a node's four children
+// against the triangle's sphere, and those that remain packed by the group, which asks for room once.
+//   START   reads no pairs: all triangles of a batch with all nodes of level `fromLevel`, above which nothing is tested
+//   FINISH  takes the groups that found no room, and goes down to the rays on the spot
+uniform ivec2 sizePx;
+#include "renderer/techniques/reflections/ray_hierarchy/nodes.glsl"
+#ifdef FINISH
+#include "renderer/techniques/reflections/ray_hierarchy/nearest.glsl"
+#endif
+
+layout(local_size_x = kTraversalGroup) in;
+layout(std430, binding = kHierarchySpheresBuffer) readonly buffer Spheres { vec4 spheres[]; };
+layout(std430, binding = kHierarchyPairsBuffer) buffer Pairs { uvec2 pairs[]; };
+layout(std430, binding = kHierarchyControlBuffer) buffer Control { HierarchyControl control; };
+layout(std430, binding = kHierarchyLeftBuffer) buffer Left { uint leftGroups[]; };
+
+uniform uint inFirst, outFirst, capacity;
+uniform uint leafLevel;
+#ifdef START
+uniform uint firstTriangle, triangleCount, fromLevel;
+#endif
+#ifdef SPILL
+uniform uint spillFirst, spillCapacity;
+#endif
+
+const uint kPlaceMask = (1u << kNodeBits) - 1u;
+ivec2 placeOf(uint node) { return ivec2(node & kPlaceMask, (node >> kNodeBits) & kPlaceMask); }
+uint levelOf(uint node) { return node >> (2 * kNodeBits); }
+uint nodeOf(uint level, ivec2 at) { return level << (2 * kNodeBits) | uint(at.y) << kNodeBits | uint(at.x); }
+
+#ifdef FINISH
+uniform int mostIterations;
+
+// Rays of a node of the last level.
+void meetAll(ivec2 at, uint triangle) {
+  for (int i = 0; i < 1 << (2u * leafLevel); ++i) {
+    const ivec2 pixel = (at << leafLevel) + ivec2(i & ((1 << leafLevel) - 1), i >> leafLevel);
+    if (all(lessThan(pixel, sizePx))) meet(pixel, triangle);
+  }
+}
+
+int iterations = 0;
+
+// All that lies below the node, which the sphere may meet: without a stack, as children follow from places.
+void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
+  uint level = top;
+  bool meets = true;
+  while (true) {
+    if (++iterations > mostIterations) {
+      control.cutShort = 1u;
+      hits[sizePx.x * sizePx.y].distance = 1u;
+      return;
+    }
+    if (meets && level > leafLevel) {
+      --level;
+      at *= 2;
+    } else {
+      if (meets) {
+        iterations += 1 << (2u * leafLevel);
+        meetAll(at, triangle);
+      }
+      while (level < top && (at.x & at.y & 1) == 1) {
+        at >>= 1;
+        ++level;
+      }
+      if (level >= top) return;
+      at = (at.x & 1) == 0 ? ivec2(at.x + 1, at.y) : ivec2(at.x - 1, at.y + 1);
+    }
+    meets = all(lessThan(at, levelSize(level))) && mayMeet(nodeAt(level, at), sphere);
+  }
+}
+#else
+shared uint groupPairs, groupFirst;
+#endif
+
+void main() {
+  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+#ifdef FINISH
+  if (group >= control.finishGroups) return;
+  group = leftGroups[group];
+#endif
+#ifdef START
+  const uint perRow = (triangleCount + uint(kTraversalGroup) - 1u) / uint(kTraversalGroup);
+  const ivec2 wide = levelSize(fromLevel + 1u);
+  const uint row = group / perRow, at = (group - row * perRow) * uint(kTraversalGroup) + gl_LocalInvocationIndex;
+  const ivec2 place = ivec2(int(row) % wide.x, int(row) / wide.x);
+  const uint triangle = firstTriangle + at, childLevel = fromLevel;
+  const bool live = at < triangleCount && place.y < wide.y;
+#else
+  const uint at = group * uint(kTraversalGroup) + gl_LocalInvocationIndex;
+#ifdef FINISH
+  const bool live = at < control.previousInputs;
+#else
+  const bool live = at < control.inputs;
+#endif
+  const uvec2 pair = live ? pairs[inFirst + at] : uvec2(0u);
+  const ivec2 place = placeOf(pair.x);
+  const uint triangle = pair.y, childLevel = levelOf(pair.x) - 1u;
+#endif
+  uint found = 0u;
+  const vec4 sphere = live ? spheres[triangle] : vec4(0.0, 0.0, 0.0, -1.0);
+  if (sphere.w >= 0.0) {
+    const ivec2 size = levelSize(childLevel);
+    for (int child = 0; child < 4; ++child) {
+      const ivec2 there = 2 * place + ivec2(child & 1, child >> 1);
+      if (all(lessThan(there, size)) && mayMeet(nodeAt(childLevel, there), sphere)) found |= 1u << child;
+    }
+  }
+#ifdef FINISH
+  for (int child = 0; child < 4; ++child)
+    if ((found >> child & 1u) != 0u)
+      descend(childLevel, 2 * place + ivec2(child & 1, child >> 1), triangle, sphere);
+#else
+  if (gl_LocalInvocationIndex == 0u) groupPairs = 0u;
+  barrier();
+  const uint own = uint(bitCount(found));
+  uint slot = own > 0u ? atomicAdd(groupPairs, own) : 0u;
+  barrier();
+  if (groupPairs == 0u) return;
+  if (gl_LocalInvocationIndex == 0u) {
+    uint first = atomicAdd(control.outputs, groupPairs);
+    // All groups or none: those from the first without room on have none, as the sum only grows. (It cannot wrap: a
+    // stream that long is refused.)
+    if (first + groupPairs > capacity) {
+      atomicMin(control.limit, first);
+      first = kHierarchyNoTriangle;
+#ifdef SPILL
+      const uint behind = atomicAdd(control.spilled, groupPairs);
+      if (behind + groupPairs <= spillCapacity)
+        first = spillFirst + behind;
+      else
+        atomicMin(control.spillLimit, behind);
+#endif
+      if (first == kHierarchyNoTriangle) leftGroups[atomicAdd(control.left, 1u)] = group;
+    } else {
+      first += outFirst;
+    }
+    groupFirst = first;
+  }
+  barrier();
+  if (groupFirst == kHierarchyNoTriangle) return;
+  slot += groupFirst;
+  for (int child = 0; child < 4; ++child)
+    if ((found >> child & 1u) != 0u)
+      pairs[slot++] = uvec2(nodeOf(childLevel, 2 * place + ivec2(child & 1, child >> 1)), triangle);
+#endif
+}
