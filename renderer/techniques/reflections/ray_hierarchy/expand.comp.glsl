@@ -3,25 +3,31 @@
 // against the triangle's sphere, and those that remain packed by the group, which asks for room once.
 //   START   reads no pairs: all triangles of a batch with all nodes of level `fromLevel`, above which nothing is tested
 //   FINISH  takes the groups that found no room, and goes down to the rays on the spot
+//   SPILL   pairs without room go to a buffer of pairs that wait
+//   SPARSE  four places for each pair, valid or not, that a stream reduction packs; pairs from `capacity` on find no room
 uniform ivec2 sizePx;
 #include "renderer/techniques/reflections/ray_hierarchy/nodes.glsl"
 #ifdef FINISH
 #include "renderer/techniques/reflections/ray_hierarchy/nearest.glsl"
+#else
+#include "renderer/compute/reduction_bindings.h"
+layout(std430, binding = kHierarchyOutBuffer) writeonly buffer Out { uvec2 outPairs[]; };
+#endif
+#ifdef SPILL
+layout(std430, binding = kHierarchySpillBuffer) writeonly buffer Spill { uvec2 spillPairs[]; };
+uniform uint spillCapacity;
 #endif
 
 layout(local_size_x = kTraversalGroup) in;
 layout(std430, binding = kHierarchySpheresBuffer) readonly buffer Spheres { vec4 spheres[]; };
-layout(std430, binding = kHierarchyPairsBuffer) buffer Pairs { uvec2 pairs[]; };
+layout(std430, binding = kHierarchyPairsBuffer) readonly buffer Pairs { uvec2 pairs[]; };
 layout(std430, binding = kHierarchyControlBuffer) buffer Control { HierarchyControl control; };
 layout(std430, binding = kHierarchyLeftBuffer) buffer Left { uint leftGroups[]; };
 
-uniform uint inFirst, outFirst, capacity;
+uniform uint capacity;
 uniform uint leafLevel;
 #ifdef START
 uniform uint firstTriangle, triangleCount, fromLevel;
-#endif
-#ifdef SPILL
-uniform uint spillFirst, spillCapacity;
 #endif
 
 const uint kPlaceMask = (1u << kNodeBits) - 1u;
@@ -71,14 +77,19 @@ void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
   }
 }
 #else
-shared uint groupPairs, groupFirst;
+const uint kIntoStream = 0u, kIntoSpill = 1u, kNowhere = 2u;
+shared uint groupPairs, groupFirst, groupGoes;
 #endif
 
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef FINISH
   if (group >= control.finishGroups) return;
+#ifdef SPARSE
+  group += capacity / uint(kTraversalGroup);
+#else
   group = leftGroups[group];
+#endif
 #endif
 #ifdef START
   const uint perRow = (triangleCount + uint(kTraversalGroup) - 1u) / uint(kTraversalGroup);
@@ -90,11 +101,13 @@ void main() {
 #else
   const uint at = group * uint(kTraversalGroup) + gl_LocalInvocationIndex;
 #ifdef FINISH
-  const bool live = at < control.previousInputs;
+  const bool present = at < control.previousInputs;
 #else
-  const bool live = at < control.inputs;
+  const bool present = at < min(control.inputs, capacity);
 #endif
-  const uvec2 pair = live ? pairs[inFirst + at] : uvec2(0u);
+  const uvec2 pair = present ? pairs[at] : uvec2(0u);
+  // Pairs of the last level are resolved elsewhere.
+  const bool live = present && levelOf(pair.x) > leafLevel;
   const ivec2 place = placeOf(pair.x);
   const uint triangle = pair.y, childLevel = levelOf(pair.x) - 1u;
 #endif
@@ -111,6 +124,13 @@ void main() {
   for (int child = 0; child < 4; ++child)
     if ((found >> child & 1u) != 0u)
       descend(childLevel, 2 * place + ivec2(child & 1, child >> 1), triangle, sphere);
+#elif defined(SPARSE)
+  const uint slot = 4u * (group * uint(kTraversalGroup) + gl_LocalInvocationIndex);
+  for (int child = 0; child < 4; ++child)
+    outPairs[slot + uint(child)] =
+        (found >> child & 1u) != 0u
+            ? uvec2(nodeOf(childLevel, 2 * place + ivec2(child & 1, child >> 1)), triangle)
+            : uvec2(kInvalidItem);
 #else
   if (gl_LocalInvocationIndex == 0u) groupPairs = 0u;
   barrier();
@@ -119,30 +139,37 @@ void main() {
   barrier();
   if (groupPairs == 0u) return;
   if (gl_LocalInvocationIndex == 0u) {
-    uint first = atomicAdd(control.outputs, groupPairs);
-    // All groups or none: those from the first without room on have none, as the sum only grows. (It cannot wrap: a
-    // stream that long is refused.)
+    const uint first = atomicAdd(control.outputs, groupPairs);
+    groupFirst = first;
+    groupGoes = kIntoStream;
+    // All groups or none: from the first one without room on none has any, as the sum only grows. (It cannot wrap: batches
+    // are too small for that.)
     if (first + groupPairs > capacity) {
       atomicMin(control.limit, first);
-      first = kHierarchyNoTriangle;
+      groupGoes = kNowhere;
 #ifdef SPILL
-      const uint behind = atomicAdd(control.spilled, groupPairs);
-      if (behind + groupPairs <= spillCapacity)
-        first = spillFirst + behind;
+      groupFirst = atomicAdd(control.spilled, groupPairs);
+      if (groupFirst + groupPairs <= spillCapacity)
+        groupGoes = kIntoSpill;
       else
-        atomicMin(control.spillLimit, behind);
+        atomicMin(control.spillLimit, groupFirst);
 #endif
-      if (first == kHierarchyNoTriangle) leftGroups[atomicAdd(control.left, 1u)] = group;
-    } else {
-      first += outFirst;
+      if (groupGoes == kNowhere) leftGroups[atomicAdd(control.left, 1u)] = group;
     }
-    groupFirst = first;
   }
   barrier();
-  if (groupFirst == kHierarchyNoTriangle) return;
+  if (groupGoes == kNowhere) return;
   slot += groupFirst;
-  for (int child = 0; child < 4; ++child)
-    if ((found >> child & 1u) != 0u)
-      pairs[slot++] = uvec2(nodeOf(childLevel, 2 * place + ivec2(child & 1, child >> 1)), triangle);
+  for (int child = 0; child < 4; ++child) {
+    if ((found >> child & 1u) == 0u) continue;
+    const uvec2 kept = uvec2(nodeOf(childLevel, 2 * place + ivec2(child & 1, child >> 1)), triangle);
+#ifdef SPILL
+    if (groupGoes == kIntoSpill) {
+      spillPairs[slot++] = kept;
+      continue;
+    }
+#endif
+    outPairs[slot++] = kept;
+  }
 #endif
 }

@@ -16,6 +16,7 @@ const std::string kHierarchyFolder = "renderer/techniques/reflections/ray_hierar
 constexpr const char* kSpheresPass = "reflections/spheres";
 /// Of triangles and first nodes in one batch, so that counts fit a word.
 constexpr int64_t kMostFirstPairs = int64_t{1} << 31;
+constexpr int64_t kPairBytes = 8;
 
 void storageBarrier() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT); }
 
@@ -34,65 +35,16 @@ int log2Of(int power) {
   return out;
 }
 
+std::unique_ptr<gl::PassList::Scope> opened(frame::Frame& frame, const std::string& name) {
+  return std::unique_ptr<gl::PassList::Scope>(new gl::PassList::Scope(frame.passes().open(name)));
+}
+
 gl::ShaderDefines with(gl::ShaderDefines defines, std::initializer_list<const char*> names) {
   for (const char* name : names) defines[name] = "1";
   return defines;
 }
 
 }  // namespace
-
-const SettingsTable<HalvedBatches>& HalvedBatches::table() {
-  static const SettingsTable<HalvedBatches> kTable = {{&HalvedBatches::mostBatches,
-                                                       "most_batches",
-                                                       {1, kHierarchyMostBatches},
-                                                       "",
-                                                       "Batches of triangles at most",
-                                                       "Roger 2008, section 3.3.4"}};
-  return kTable;
-}
-const SettingsTable<SpilledPairs>& SpilledPairs::table() {
-  static const SettingsTable<SpilledPairs> kTable = {{&SpilledPairs::room,
-                                                      "room",
-                                                      {1, 1 << 25},
-                                                      "pairs",
-                                                      "Pairs that may wait for a later batch",
-                                                      "Roger 2008, section 3.3.4"}};
-  return kTable;
-}
-const SettingsTable<FixedBatches>& FixedBatches::table() {
-  static const SettingsTable<FixedBatches> kTable = {{&FixedBatches::triangles,
-                                                      "triangles",
-                                                      {1, 1 << 25},
-                                                      "",
-                                                      "Triangles of a batch",
-                                                      "Roger 2008, section 3.3.4"}};
-  return kTable;
-}
-
-const SettingsTable<TraversalSettings>& TraversalSettings::table() {
-  using S = TraversalSettings;
-  static const SettingsTable<S> kTable = {
-      {&S::merge, "merge", "How nodes enclose their children", "open in Roger 2008"},
-      {&S::test, "test", "How a node is tested against a triangle's sphere",
-       "Roger 2008, equation 3.1, corrected"},
-      {&S::startNodes,
-       "start_nodes",
-       {1, 65536},
-       "nodes",
-       "Nodes at most on the level that all triangles are tested with first; 1 is the root",
-       "1 in Roger 2008, section 3.3.3; more are the bench's own"},
-      {&S::leafSide, "leaf_side", oneOf({1, 2, 4, 8}), "rays",
-       "Side of the nodes whose rays are tested with a triangle itself",
-       "1 in Roger 2008, section 3.3.3; more are the bench's own"},
-      {&S::capacity,
-       "capacity",
-       {1, 1 << 25},
-       "pairs",
-       "Pairs of nodes and triangles that a stream has room for",
-       "2048 x 2048 in Roger 2008, section 3.3.4"},
-      {&S::overflow, "overflow", "What happens when pairs find no room"}};
-  return kTable;
-}
 
 PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& settings, bool shadows)
     : settings_(settings),
@@ -117,8 +69,15 @@ PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& setti
   const auto nodesAt = [&](uint32_t level) { return levelSize(level).x * levelSize(level).y; };
   while (nodesAt(startLevel_) > settings.startNodes) ++startLevel_;
 
-  const int64_t most = kMostFirstPairs / (4 * nodesAt(startLevel_));
-  int64_t batch = std::min<int64_t>(std::max(triangleCount_, 1U), most);
+  const auto parentsAt = [&](uint32_t level) {
+    return int64_t{levelSize(level + 1).x} * levelSize(level + 1).y;
+  };
+  // A separate reduction needs four places for each pair that is tested, the first ones included.
+  capacity_ = separate() ? groupsFor(settings.capacity) * kTraversalGroup : settings.capacity;
+  while (separate() && parentsAt(startLevel_) * kTraversalGroup > capacity_) ++startLevel_;
+  const int64_t parents = parentsAt(startLevel_);
+  int64_t batch = std::min<int64_t>(std::max(triangleCount_, 1U), kMostFirstPairs / (4 * parents));
+  if (separate()) batch = std::min(batch, capacity_ / parents / kTraversalGroup * kTraversalGroup);
   if (const auto* fixed = std::get_if<FixedBatches>(&settings.overflow))
     batch = std::min<int64_t>(batch, fixed->triangles);
   if (const auto* halved = std::get_if<HalvedBatches>(&settings.overflow))
@@ -127,46 +86,54 @@ PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& setti
     batches_.push_back({static_cast<uint32_t>(first),
                         static_cast<uint32_t>(std::min<int64_t>(batch, triangleCount_ - first))});
   if (batches_.size() > kHierarchyMostBatches)
-    throw Error("a hierarchy over rays with " + std::to_string(batches_.size()) +
+    throw Error("a hierarchy over rays would take " + std::to_string(batches_.size()) +
                     " batches of triangles; at most " + std::to_string(kHierarchyMostBatches) + " are kept",
-                {}, "let a batch have more triangles");
+                {}, "let a batch have more triangles, or give streams more room");
 
   GLint64 largest = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-  const int64_t pairBytes = int64_t{settings.capacity} * 2 * 8;
-  if (pairBytes > largest)
-    throw Error("two streams of pairs take " + std::to_string(pairBytes) +
+  const int64_t streamBytes = capacity_ * kPairBytes * (separate() ? 4 : 1);
+  if (streamBytes > largest)
+    throw Error("a stream of pairs takes " + std::to_string(streamBytes) +
                     " bytes in one buffer; this device allows " + std::to_string(largest),
                 {}, "lower the capacity");
   nodes_.emplace(int64_t{nodes} * kConeSphereBytes, nullptr);
   spheres_.emplace(int64_t{triangleCount_} * 16, nullptr);
-  pairs_.emplace(pairBytes, nullptr);
+  for (auto& stream : streams_) stream.emplace(streamBytes, nullptr);
   control_.emplace(int64_t{sizeof(HierarchyControl)}, nullptr);
-  const glm::ivec2 above = levelSize(startLevel_ + 1);
-  left_.emplace(
-      std::max(groupsFor(settings.capacity), groupsFor(batch) * int64_t{above.x} * above.y) * int64_t{4},
-      nullptr);
+  left_.emplace(std::max(groupsFor(capacity_), groupsFor(batch) * parents) * int64_t{4}, nullptr);
   hits_.clearUint(0);
+  if (spills())
+    for (auto& waiting : waiting_) waiting.emplace(spills()->room * kPairBytes);
+  if (separate()) {
+    sparse_.emplace(streamBytes, nullptr);
+    reduced_.emplace(int64_t{sizeof(compute::ReducedCount)}, nullptr);
+    reduction_.emplace(frame.context(), static_cast<uint32_t>(4 * capacity_),
+                       compute::ReductionSettings{.form = separate()->form, .lanes = 2});
+  }
+  compilePrograms(frame.context().programs(), shadows);
+  frame.passes().setBytesHeld(kSpheresPass, spheres_->bytes());
+}
 
+void PairTraversal::compilePrograms(gl::ProgramCache& cache, bool shadows) {
   gl::ShaderDefines defines;
-  defineEnum(defines, "MERGE", settings.merge);
-  defineEnum(defines, "TEST", settings.test);
-  gl::ProgramCache& cache = frame.context().programs();
+  if (spills()) defines["SPILL"] = "1";
+  if (separate()) defines["SPARSE"] = "1";
+  controlProgram_ = &cache.compute(kHierarchyFolder + "control.comp.glsl", defines);
+  defineEnum(defines, "MERGE", settings_.merge);
+  defineEnum(defines, "TEST", settings_.test);
   spheresProgram_ = &cache.compute(kHierarchyFolder + "spheres.comp.glsl");
   buildProgram_ = &cache.compute(kHierarchyFolder + "build.comp.glsl", defines);
-  controlProgram_ = &cache.compute(kHierarchyFolder + "control.comp.glsl");
   const std::string expand = kHierarchyFolder + "expand.comp.glsl";
+  const std::string resolve = kHierarchyFolder + "resolve.comp.glsl";
   nearest_ = {&cache.compute(expand, with(defines, {"START"})), &cache.compute(expand, defines),
               &cache.compute(expand, with(defines, {"START", "FINISH"})),
-              &cache.compute(expand, with(defines, {"FINISH"})),
-              &cache.compute(kHierarchyFolder + "resolve.comp.glsl", defines)};
-  if (shadows) {
-    shadow_ = nearest_;
-    shadow_.finishStart = &cache.compute(expand, with(defines, {"START", "FINISH", "SHADOW"}));
-    shadow_.finish = &cache.compute(expand, with(defines, {"FINISH", "SHADOW"}));
-    shadow_.resolve = &cache.compute(kHierarchyFolder + "resolve.comp.glsl", with(defines, {"SHADOW"}));
-  }
-  frame.passes().setBytesHeld(kSpheresPass, spheres_->bytes());
+              &cache.compute(expand, with(defines, {"FINISH"})), &cache.compute(resolve, defines)};
+  if (!shadows) return;
+  shadow_ = nearest_;
+  shadow_.finishStart = &cache.compute(expand, with(defines, {"START", "FINISH", "SHADOW"}));
+  shadow_.finish = &cache.compute(expand, with(defines, {"FINISH", "SHADOW"}));
+  shadow_.resolve = &cache.compute(resolve, with(defines, {"SHADOW"}));
 }
 
 glm::ivec2 PairTraversal::levelSize(uint32_t level) const {
@@ -174,7 +141,12 @@ glm::ivec2 PairTraversal::levelSize(uint32_t level) const {
 }
 
 int64_t PairTraversal::bytes() const {
-  return nodes_->bytes() + pairs_->bytes() + control_->bytes() + left_->bytes() + hits_.bytes();
+  int64_t bytes = nodes_->bytes() + control_->bytes() + left_->bytes() + hits_.bytes();
+  for (const auto& stream : streams_) bytes += stream->bytes();
+  for (const auto& waiting : waiting_)
+    if (waiting) bytes += waiting->bytes();
+  if (separate()) bytes += sparse_->bytes() + reduced_->bytes() + reduction_->bytes();
+  return bytes;
 }
 
 void PairTraversal::setLevels(const gl::Program& program) const {
@@ -186,7 +158,6 @@ void PairTraversal::setLevels(const gl::Program& program) const {
 void PairTraversal::beginFrame(frame::Frame& frame) {
   halveBatches();
   testsOfFrame_ = 0;
-  traces_ = 0;
   const auto scope = frame.passes().open(kSpheresPass);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   control_->clearUint(0);
@@ -212,102 +183,179 @@ void PairTraversal::build(const RayTextures& rays, bool clears) {
   }
 }
 
-void PairTraversal::step(uint32_t level, uint32_t batch, bool begins) const {
-  controlProgram_->set("capacity", static_cast<uint32_t>(settings_.capacity));
+void PairTraversal::step(uint32_t level, uint32_t batch, uint32_t mode) const {
+  controlProgram_->set("capacity", static_cast<uint32_t>(capacity_));
   controlProgram_->set("level", level);
   controlProgram_->set("batch", batch);
-  controlProgram_->set("begins", begins ? 1 : 0);
+  controlProgram_->set("mode", mode);
   controlProgram_->set("isLeaf", level == leafLevel_ ? 1 : 0);
   controlProgram_->set("raysPerLeaf", 1U << (2 * leafLevel_));
+  if (spills()) controlProgram_->set("spillCapacity", static_cast<uint32_t>(spills()->room));
+  control_->bindStorage(kHierarchyControlBuffer);
+  if (separate()) reduced_->bindStorage(kHierarchyReducedBuffer);
   dispatchRows(*controlProgram_, 1);
   storageBarrier();
 }
 
-void PairTraversal::traverse(const Batch& batch, uint32_t number, const Programs& programs) {
-  const glm::ivec2 above = levelSize(startLevel_ + 1);
-  const auto capacity = static_cast<uint32_t>(settings_.capacity);
+void PairTraversal::configure(const Programs& programs) const {
   for (const gl::Program* program :
        {programs.start, programs.finishStart, programs.expand, programs.finish}) {
     setLevels(*program);
-    program->set("capacity", capacity);
+    program->set("capacity", static_cast<uint32_t>(capacity_));
     program->set("leafLevel", leafLevel_);
     program->set("mostIterations", mostIterations_);
-    program->set("firstTriangle", batch.first);
-    program->set("triangleCount", batch.count);
     program->set("fromLevel", startLevel_);
+    if (spills()) program->set("spillCapacity", static_cast<uint32_t>(spills()->room));
   }
-  const auto indirect = [&](const gl::Program& program, size_t offset) {
-    program.use();
-    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
-    storageBarrier();
-  };
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_->id());
-  step(startLevel_, number, true);
-  programs.start->set("outFirst", 0U);
-  dispatchRows(*programs.start, groupsFor(batch.count) * int64_t{above.x} * above.y);
-  storageBarrier();
-  step(startLevel_, number, false);
-  indirect(*programs.finishStart, offsetof(HierarchyControl, finishX));
-  uint32_t region = 0;
-  for (uint32_t level = startLevel_; level > leafLevel_; --level) {
-    for (const gl::Program* program : {programs.expand, programs.finish}) {
-      program->set("inFirst", region * capacity);
-      program->set("outFirst", (1 - region) * capacity);
-    }
-    indirect(*programs.expand, offsetof(HierarchyControl, expandX));
-    step(level - 1, number, false);
-    indirect(*programs.finish, offsetof(HierarchyControl, finishX));
-    region = 1 - region;
-  }
-  testsOfFrame_ += uint64_t{batch.count} * static_cast<uint64_t>(levelSize(startLevel_).x) *
-                   static_cast<uint64_t>(levelSize(startLevel_).y);
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  programs.resolve->set("sizePx", sizePx_);
+  programs.resolve->set("leafLevel", leafLevel_);
 }
 
-void PairTraversal::resolve(const Programs& programs, uint32_t region) {
-  programs.resolve->set("sizePx", sizePx_);
-  programs.resolve->set("inFirst", region * static_cast<uint32_t>(settings_.capacity));
-  programs.resolve->set("leafLevel", leafLevel_);
+void PairTraversal::bind(frame::Frame& frame, Buffers use, const gl::Buffer* out) const {
+  nodes_->bindStorage(kHierarchyNodesBuffer);
+  spheres_->bindStorage(kHierarchySpheresBuffer);
+  control_->bindStorage(kHierarchyControlBuffer);
+  left_->bindStorage(kHierarchyLeftBuffer);
+  if (use == Buffers::Rays) {
+    frame.geometry().bindStorage();
+    hits_.bindStorage(kHierarchyHitsBuffer);
+  } else {
+    out->bindStorage(kHierarchyOutBuffer);
+    if (waiting_[waitsIn_]) waiting_[waitsIn_]->bindStorage(kHierarchySpillBuffer);
+  }
+}
+
+void PairTraversal::dispatchCounted(const gl::Program& program, size_t offset) const {
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_->id());
-  programs.resolve->use();
-  glDispatchComputeIndirect(offsetof(HierarchyControl, resolveX));
+  program.use();
+  glDispatchComputeIndirect(static_cast<GLintptr>(offset));
   storageBarrier();
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
+void PairTraversal::finish(frame::Frame& frame, const gl::Program& program) const {
+  bind(frame, Buffers::Rays, nullptr);
+  dispatchCounted(program, offsetof(HierarchyControl, finishX));
+}
+
+void PairTraversal::reduce(const gl::Buffer& into, uint32_t most, bool counted) const {
+  compute::StreamInput in{*sparse_, most};
+  if (counted) in.count = &*control_, in.countOffset = offsetof(HierarchyControl, sparseItems);
+  reduction_->run(in, {into, static_cast<uint32_t>(4 * capacity_), *reduced_});
+}
+
+void PairTraversal::start(frame::Frame& frame, uint32_t number, const Programs& programs,
+                          const std::string& name) {
+  const Batch& batch = batches_[number];
+  for (const gl::Program* program : {programs.start, programs.finishStart}) {
+    program->set("firstTriangle", batch.first);
+    program->set("triangleCount", batch.count);
+  }
+  const glm::ivec2 above = levelSize(startLevel_ + 1);
+  const int64_t groups = groupsFor(batch.count) * above.x * above.y;
+  {
+    const auto scope = timedLevel(frame, "test_" + name, startLevel_);
+    step(startLevel_, number, kControlBatch);
+    bind(frame, Buffers::Streams, separate() ? &*sparse_ : &*streams_[0]);
+    dispatchRows(*programs.start, groups);
+    storageBarrier();
+  }
+  if (separate()) {
+    const auto scope = timedLevel(frame, "reduce_" + name, startLevel_);
+    reduce(*streams_[0], static_cast<uint32_t>(groups * kTraversalGroup * 4), false);
+  }
+  step(startLevel_, number, kControlStep);
+  streams_[0]->bindStorage(kHierarchyPairsBuffer);
+  finish(frame, separate() ? *programs.finish : *programs.finishStart);
+  reading_ = 0;
+  const glm::ivec2 size = levelSize(startLevel_);
+  testsOfFrame_ += uint64_t{batch.count} * static_cast<uint64_t>(size.x) * static_cast<uint64_t>(size.y);
+}
+
+void PairTraversal::descend(frame::Frame& frame, uint32_t level, uint32_t number, const Programs& programs,
+                            const std::string& name) {
+  const gl::Buffer& out = *streams_[1 - reading_];
+  {
+    const auto scope = timedLevel(frame, "test_" + name, level);
+    bind(frame, Buffers::Streams, separate() ? &*sparse_ : &out);
+    dispatchCounted(*programs.expand, offsetof(HierarchyControl, expandX));
+  }
+  if (separate()) {
+    const auto scope = timedLevel(frame, "reduce_" + name, level);
+    reduce(out, static_cast<uint32_t>(4 * capacity_), true);
+  }
+  step(level, number, kControlStep);
+  reading_ = 1 - reading_;
+  if (separate()) out.bindStorage(kHierarchyPairsBuffer);
+  finish(frame, *programs.finish);  // of the stream that was read; of a separate reduction, of what it made
+  out.bindStorage(kHierarchyPairsBuffer);
+}
+
+void PairTraversal::resolve(frame::Frame& frame, const Programs& programs) const {
+  bind(frame, Buffers::Rays, nullptr);
+  dispatchCounted(*programs.resolve, offsetof(HierarchyControl, resolveX));
+}
+
+void PairTraversal::runLaterBatches(frame::Frame& frame, uint32_t number, const Programs& programs) {
+  // What waits has come down at least one level more than all that waited before.
+  for (uint32_t top = startLevel_ + 1; top-- > leafLevel_;) {
+    step(kHierarchyLevels, number, kControlLaterBatch);
+    waiting_[waitsIn_]->bindStorage(kHierarchyPairsBuffer);
+    waitsIn_ = 1 - waitsIn_;
+    reading_ = 0;
+    resolve(frame, programs);
+    for (uint32_t level = top; level-- > leafLevel_;) {
+      descend(frame, kHierarchyLevels, number, programs, "");
+      resolve(frame, programs);
+    }
+  }
+}
+
+std::unique_ptr<gl::PassList::Scope> PairTraversal::timedLevel(frame::Frame& frame, const std::string& name,
+                                                               uint32_t level) const {
+  if (!timesLevels_) return nullptr;
+  return opened(frame, "reflections/" + name + "/level_" + std::to_string(level));
 }
 
 void PairTraversal::trace(frame::Frame& frame, const RayTextures& rays, const std::string& name,
                           bool shadow) {
-  ++traces_;
   const Programs& programs = shadow ? shadow_ : nearest_;
-  frame.passes().setBytesHeld("reflections/build_" + name, nodes_->bytes());
+  const std::string folder = "reflections/";
+  frame.passes().setBytesHeld(folder + "build_" + name, nodes_->bytes());
   {
-    const auto scope = frame.passes().open("reflections/build_" + name);
+    const auto scope = frame.passes().open(folder + "build_" + name);
     build(rays, !shadow);
   }
-  frame.geometry().bindStorage();
-  nodes_->bindStorage(kHierarchyNodesBuffer);
-  spheres_->bindStorage(kHierarchySpheresBuffer);
-  pairs_->bindStorage(kHierarchyPairsBuffer);
-  control_->bindStorage(kHierarchyControlBuffer);
-  hits_.bindStorage(kHierarchyHitsBuffer);
-  left_->bindStorage(kHierarchyLeftBuffer);
+  configure(programs);
   rays.origins->bindTexture(kHierarchyOriginsUnit);
   rays.directions->bindTexture(kHierarchyDirectionsUnit);
   rays.from->bindTexture(kHierarchyFromUnit);
-  const uint32_t region = (startLevel_ - leafLevel_) % 2;
-  if (batches_.size() == 1) {
+  const auto testAll = [&](uint32_t number) {
+    start(frame, number, programs, name);
+    for (uint32_t level = startLevel_; level-- > leafLevel_;) descend(frame, level, number, programs, name);
+  };
+  // Passes do not nest: a frame of one batch is timed by stages, and with a separate reduction by levels.
+  const bool single = batches_.size() == 1;
+  timesLevels_ = single && separate();
+  if (single) {
     {
-      const auto scope = frame.passes().open("reflections/test_" + name);
-      traverse(batches_[0], 0, programs);
+      const auto scope = timesLevels_ ? nullptr : opened(frame, folder + "test_" + name);
+      testAll(0);
     }
-    const auto scope = frame.passes().open("reflections/resolve_" + name);
-    resolve(programs, region);
+    {
+      const auto scope = frame.passes().open(folder + "resolve_" + name);
+      resolve(frame, programs);
+    }
+    if (spills()) {
+      const auto scope = frame.passes().open(folder + "later_batches_" + name);
+      runLaterBatches(frame, 0, programs);
+    }
     return;
   }
-  const auto scope = frame.passes().open("reflections/test_" + name);
-  for (size_t number = 0; number < batches_.size(); ++number) {
-    traverse(batches_[number], static_cast<uint32_t>(number), programs);
-    resolve(programs, region);
+  const auto scope = frame.passes().open(folder + "test_" + name);
+  for (uint32_t number = 0; number < batches_.size(); ++number) {
+    testAll(number);
+    resolve(frame, programs);
+    if (spills()) runLaterBatches(frame, number, programs);
   }
 }
 
@@ -342,7 +390,6 @@ PairTraversal::Counts PairTraversal::counts() const {
   for (uint32_t level = leafLevel_ + 1; level <= startLevel_; ++level)
     out.tests += 4 * uint64_t{out.control.pairsAt[level]};
   out.batches = static_cast<int>(batches_.size());
-  out.traces = traces_;
   return out;
 }
 

@@ -1,60 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <variant>
+#include <string>
 #include <vector>
 
-#include "experiments/base/enum_names.h"
-#include "experiments/base/settings_table.h"
+#include "renderer/compute/stream_reduction.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
-#include "renderer/techniques/reflections/ray_hierarchy/cone_sphere.h"
-#include "renderer/techniques/reflections/ray_hierarchy/late_readback.h"
+#include "renderer/techniques/reflections/ray_hierarchy/host_buffers.h"
 #include "renderer/techniques/reflections/ray_hierarchy/ray_hierarchy_bindings.h"
+#include "renderer/techniques/reflections/ray_hierarchy/traversal_settings.h"
 
 namespace limen::techniques {
-
-constexpr EnumNames<BundleMerge, 2> enumNames(BundleMerge) {
-  return {{{{BundleMerge::Mean, "mean"}, {BundleMerge::Pairwise, "pairwise"}}}};
-}
-constexpr EnumNames<BundleTest, 3> enumNames(BundleTest) {
-  return {{{{BundleTest::Tight, "tight"}, {BundleTest::Robust, "robust"}, {BundleTest::Printed, "printed"}}}};
-}
-
-/// What happens to pairs that find no room. Whatever is chosen, those that still find none are followed to
-/// the rays at once, one group each time: slower, but no frame loses any, and none waits for the CPU.
-struct HalvedBatches {
-  static constexpr const char *kKind = "halved_batches",
-                              *kSummary = "halve batches of triangles that overflowed, from a later frame on";
-  int mostBatches = 256;
-  static const SettingsTable<HalvedBatches>& table();
-};
-struct SpilledPairs {
-  static constexpr const char *kKind = "spilled_pairs",
-                              *kSummary = "pairs without room wait in the CPU's memory for later batches";
-  int room = 4194304;
-  static const SettingsTable<SpilledPairs>& table();
-};
-struct FixedBatches {
-  static constexpr const char *kKind = "fixed_batches", *kSummary = "batches of a fixed number of triangles";
-  int triangles = 1048576;
-  static const SettingsTable<FixedBatches>& table();
-};
-using Overflow = std::variant<HalvedBatches, SpilledPairs, FixedBatches>;
-
-struct TraversalSettings {
-  BundleMerge merge = BundleMerge::Mean;
-  BundleTest test = BundleTest::Tight;
-  int startNodes = 256;
-  int leafSide = 1;
-  int capacity = 4194304;
-  Overflow overflow = HalvedBatches{};
-  static const SettingsTable<TraversalSettings>& table();
-};
 
 /// Rays of a frame's size as the hierarchy takes them, one a pixel.
 struct RayTextures {
@@ -83,7 +46,7 @@ class PairTraversal {
   struct Counts {
     HierarchyControl control;
     uint64_t tests = 0;
-    int batches = 0, traces = 0;
+    int batches = 0;
   };
   /// Of the last frame; waits for the GPU.
   Counts counts() const;
@@ -101,10 +64,24 @@ class PairTraversal {
   glm::ivec2 levelSize(uint32_t level) const;
   void setLevels(const gl::Program& program) const;
   void build(const RayTextures& rays, bool clears);
-  void traverse(const Batch& batch, uint32_t number, const Programs& programs);
-  void step(uint32_t level, uint32_t batch, bool begins) const;
-  void resolve(const Programs& programs, uint32_t region);
+  enum class Buffers { Streams, Rays };
+  const SeparateReduction* separate() const { return std::get_if<SeparateReduction>(&settings_.reduction); }
+  const SpilledPairs* spills() const { return std::get_if<SpilledPairs>(&settings_.overflow); }
+  void compilePrograms(gl::ProgramCache& cache, bool shadows);
+  void configure(const Programs& programs) const;
+  void bind(frame::Frame& frame, Buffers use, const gl::Buffer* out) const;
+  void dispatchCounted(const gl::Program& program, size_t offset) const;
+  void start(frame::Frame& frame, uint32_t number, const Programs& programs, const std::string& name);
+  void descend(frame::Frame& frame, uint32_t level, uint32_t number, const Programs& programs,
+               const std::string& name);
+  void reduce(const gl::Buffer& into, uint32_t most, bool counted) const;
+  void step(uint32_t level, uint32_t batch, uint32_t mode) const;
+  void resolve(frame::Frame& frame, const Programs& programs) const;
+  void finish(frame::Frame& frame, const gl::Program& program) const;
+  void runLaterBatches(frame::Frame& frame, uint32_t number, const Programs& programs);
   void halveBatches();
+  std::unique_ptr<gl::PassList::Scope> timedLevel(frame::Frame& frame, const std::string& name,
+                                                  uint32_t level) const;
 
   TraversalSettings settings_;
   glm::ivec2 sizePx_;
@@ -115,11 +92,17 @@ class PairTraversal {
   uint32_t mostBatches_ = kHierarchyMostBatches;
   const gl::Program *spheresProgram_, *buildProgram_, *controlProgram_;
   Programs nearest_, shadow_;
-  std::optional<gl::Buffer> nodes_, spheres_, pairs_, control_, left_;
+  std::optional<gl::Buffer> nodes_, spheres_, control_, left_;
+  std::array<std::optional<gl::Buffer>, 2> streams_;  ///< read and written in turn
+  std::array<std::optional<HostBuffer>, 2> waiting_;  ///< pairs for later batches
+  std::optional<gl::Buffer> sparse_, reduced_;
+  std::optional<compute::StreamReduction> reduction_;
   gl::Buffer hits_;
   LateReadback readback_;
+  int64_t capacity_ = 0;
+  size_t reading_ = 0, waitsIn_ = 0;
+  bool timesLevels_ = false;
   uint64_t testsOfFrame_ = 0;
-  int traces_ = 0;
 };
 
 }  // namespace limen::techniques

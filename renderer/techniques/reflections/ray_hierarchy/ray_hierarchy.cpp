@@ -168,7 +168,9 @@ class RayHierarchyReflections : public Technique {
             {"triangles_per_ray", rays > 0.0 ? leaves * perLeaf / rays : 0.0},
             {"mirror_rays", rays},
             {"batches", double(counts.batches)},
-            {"groups_without_room", double(control.leftEver)}};
+            {"groups_without_room", double(control.leftEver)},
+            {"pairs_spilled", double(control.spilledEver)},
+            {"later_batches", double(control.laterBatches)}};
   }
 
   static std::vector<Quantity> quantities() {
@@ -182,7 +184,9 @@ class RayHierarchyReflections : public Technique {
              source},
             {"mirror_rays", "Rays of the first bounce", "rays", Direction::Neither},
             {"batches", "Batches of triangles", "", lower, source},
-            {"groups_without_room", "Groups of pairs that found no room", "groups", lower, source}};
+            {"groups_without_room", "Groups of pairs that found no room", "groups", lower, source},
+            {"pairs_spilled", "Pairs that waited for a later batch", "pairs", lower, source},
+            {"later_batches", "Later batches that had pairs", "", lower, source}};
   }
 
  private:

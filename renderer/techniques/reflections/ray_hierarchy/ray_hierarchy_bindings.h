@@ -44,9 +44,10 @@ struct HierarchyControl {  // std430
   uint expandX, expandY, expandZ, previousInputs;
   uint finishX, finishY, finishZ, finishGroups;
   uint resolveX, resolveY, resolveZ, cutShort;  // cutShort: a loop that a software renderer would have left
-  uint spilled, spillLimit, spilledEver, rounds;
+  uint spilled, spillLimit;                     // of pairs that wait, as outputs and limit
+  uint sparseItems, unused;
   // Since the frame began.
-  uint leftEver, leafPairs, meetings, unused;
+  uint leftEver, leafPairs, spilledEver, laterBatches;
   uint pairsAt[16];                       // of each level; the last: of later batches
   uint batchLeft[kHierarchyMostBatches];  // groups without room
 };
@@ -63,6 +64,15 @@ const uint kHierarchyPairsBuffer = 4u;
 const uint kHierarchyControlBuffer = 5u;
 const uint kHierarchyHitsBuffer = 6u;
 const uint kHierarchyLeftBuffer = 7u;
+// Where no triangle is looked at.
+const uint kHierarchyOutBuffer = 6u;
+const uint kHierarchySpillBuffer = 0u;
+const uint kHierarchyReducedBuffer = 0u;
+
+// What the shader between two steps does.
+const uint kControlBatch = 0u;       // a batch begins
+const uint kControlStep = 1u;        // what was written is read next
+const uint kControlLaterBatch = 2u;  // pairs that waited are read next
 
 // Rays.
 const uint kHierarchyOriginsUnit = 0u;

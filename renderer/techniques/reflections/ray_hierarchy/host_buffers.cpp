@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/reflections/ray_hierarchy/late_readback.h"
+#include "renderer/techniques/reflections/ray_hierarchy/host_buffers.h"
 
 #include <epoxy/gl.h>
 
@@ -9,6 +9,19 @@ namespace {
 constexpr int kCopies = 4;
 
 }  // namespace
+
+HostBuffer::HostBuffer(int64_t bytes) : bytes_(bytes) {
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, bytes, nullptr,
+                       GL_CLIENT_STORAGE_BIT | GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT |
+                           GL_MAP_COHERENT_BIT);
+}
+
+HostBuffer::~HostBuffer() { glDeleteBuffers(1, &id_); }
+
+void HostBuffer::bindStorage(uint32_t binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
 
 LateReadback::LateReadback(int64_t bytes) : bytes_(bytes), slots_(kCopies) {
   constexpr GLbitfield kFlags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;

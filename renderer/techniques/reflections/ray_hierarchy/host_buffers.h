@@ -8,6 +8,21 @@
 
 namespace limen::techniques {
 
+/// A storage buffer in the CPU's memory, as far as the driver heeds the wish.
+class HostBuffer {
+ public:
+  explicit HostBuffer(int64_t bytes);
+  ~HostBuffer();
+  HostBuffer(const HostBuffer&) = delete;
+  HostBuffer& operator=(const HostBuffer&) = delete;
+  void bindStorage(uint32_t binding) const;
+  int64_t bytes() const { return bytes_; }
+
+ private:
+  uint32_t id_ = 0;
+  int64_t bytes_;
+};
+
 /// The contents of a buffer as some earlier frame left them, without ever waiting for the GPU: copies into
 /// memory that the CPU can read, each with a fence.
 class LateReadback {
