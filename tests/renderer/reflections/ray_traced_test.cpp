@@ -7,7 +7,8 @@ namespace {
 class RayTracedMirrors : public ReflectionTest {};
 
 /// A ray that leaves a convex body never meets it again: a ball alone before the background reflects the
-/// background and nothing else, wherever the ball is and however fine its mesh.
+/// background and nothing else, wherever the ball is and however fine its mesh. Where a pixel's centre is on
+/// the silhouette up to rounding, the rasteriser may see the back of a facet, and rays from there are inside.
 TEST_F(RayTracedMirrors, AConvexBodyNeverMeetsItself) {
   const Given given = {{"shading.background", 0.5}, {"shading.ambient", 0.0}, {"shading.diffuse", 0.0}};
   for (const double away : {0.0, 1e5})
@@ -20,14 +21,24 @@ TEST_F(RayTracedMirrors, AConvexBodyNeverMeetsItself) {
       scene::addPart(scene, ball, mirrorMaterial(0.8F));
       scene::setStillCamera(scene, scene::orbitCamera(centre, 2.5, 20.0, 30.0));
       const Rendered rendered = render(scene, "reflections/ray_traced", given, {192, 192});
-      size_t onBall = 0;
+      const std::vector<uint32_t> ids = seenTriangles(scene, {192, 192});
+      const glm::dvec3 eye = scene.camera.at(0.0).eye;
+      size_t onBall = 0, backs = 0;
       for (size_t i = 0; i < rendered.product.pixels(); ++i) {
         const float value = rendered.product.data[4 * i];
-        if (value == 0.5F) continue;
+        if (ids[i] == frame::TriangleIds::kNone) continue;
         ++onBall;
+        const glm::uvec3 of = scene.mesh.triangles[ids[i]];
+        const glm::dvec3 a = scene.mesh.positions[of.x], b = scene.mesh.positions[of.y],
+                         c = scene.mesh.positions[of.z];
+        if (glm::dot(glm::cross(b - a, c - a), eye - a) <= 0.0) {
+          ++backs;
+          continue;
+        }
         ASSERT_NEAR(value, 0.4, 1e-6) << "pixel " << i << " of a ball of " << cells << " at " << away;
       }
       EXPECT_GT(onBall, 3000U);
+      EXPECT_LE(backs, 3U);
     }
 }
 
@@ -50,8 +61,6 @@ TEST_F(RayTracedMirrors, AgreesWithTheReferencePixelByPixel) {
       const Image found = render(scene, "reflections/ray_traced", given, {160, 120}).product;
       const Differing result = differing(found, truth, bounces == 1 ? 2e-4 : 4e-3);
       EXPECT_LE(result.count, 40U) << bounces << " bounces, " << shadows << " shadows";
-      std::printf("bounces %d shadows %d: %zu differ, elsewhere %.2e\n", bounces, shadows, result.count,
-                  result.largestElsewhere);
     }
 }
 

@@ -44,6 +44,14 @@ class ReflectionTest : public TechniqueTest {
     material.mirror = glm::vec3(share);
     return material;
   }
+  static std::vector<uint32_t> seenTriangles(const scene::Scene& scene, glm::ivec2 sizePx) {
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, sizePx);
+    frame.begin();
+    std::vector<uint32_t> ids = frame.get<frame::TriangleIds>().texture().readUint();
+    frame.end();
+    return ids;
+  }
 };
 
 }  // namespace limen::techniques
