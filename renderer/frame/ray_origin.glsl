@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where rays that leave a surface start, and what they cannot meet there. See mirror_rays.h. Set up by
 // configureRayOrigins().
+#include "renderer/frame/seen_point.glsl"
 
 uniform float originTolerance;  // world units
 

@@ -11,7 +11,7 @@ layout(binding = kReflectionImage, rgba32f) uniform writeonly image2D outImage;
 uniform ivec2 sizePx;
 uniform int bounces, shadows;
 uniform float leastShare;
-#include "renderer/techniques/reflections/mirror_trace.glsl"
+#include "renderer/frame/mirror_trace.glsl"
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

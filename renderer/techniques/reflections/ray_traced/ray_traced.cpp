@@ -10,7 +10,7 @@
 #include "renderer/frame/mirror_path.h"
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/ray_tracing/ray_scene.h"
-#include "renderer/techniques/reflections/mirror_trace.h"
+#include "renderer/frame/mirror_trace.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/technique.h"
@@ -39,7 +39,7 @@ class RayTracedReflections : public Technique {
   void prepare(frame::Frame& frame) override {
     program_ =
         &frame.context().programs().compute("renderer/techniques/reflections/ray_traced/ray_traced.comp.glsl",
-                                            mirrorTraceDefines(settings_.shading, frame));
+                                            frame::mirrorTraceDefines(settings_.shading, frame));
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
     frame.passes().setBytesHeld(kTracePass,
                                 reflected_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
@@ -51,7 +51,7 @@ class RayTracedReflections : public Technique {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     {
       const auto scope = frame.passes().open(kTracePass);
-      configureMirrorTrace(*program_, frame, settings_.shading);
+      frame::configureMirrorTrace(*program_, frame, settings_.shading);
       program_->set("bounces", settings_.path.bounces);
       program_->set("shadows", settings_.path.shadows);
       program_->set("leastShare", static_cast<float>(settings_.path.leastShare));
