@@ -9,6 +9,8 @@ layout(binding = kHierarchyOriginsUnit) uniform sampler2D origins;
 layout(binding = kHierarchyDirectionsUnit) uniform sampler2D directions;
 layout(std430, binding = kHierarchyHitsBuffer) writeonly buffer Hits { uvec2 hits[]; };
 uniform bool clears;     // the rays' hits
+uniform bool reversed;   // rays that end at the light, as rays from there
+uniform vec3 lightAt;    // relative to the anchor
 uniform uint fromLevel;  // 0: rays
 uniform uint lastLevel;
 
@@ -28,7 +30,8 @@ void main() {
       const vec4 origin = texelFetch(origins, at, 0);
       // Written so that a NaN is no ray.
       if (origin.w > 0.0 && all(lessThan(abs(origin.xyz), vec3(3.0e38))))
-        node = ConeSphere(origin.xyz, 0.0, texelFetch(directions, at, 0).xyz, 0.0);
+        node = ConeSphere(reversed ? lightAt : origin.xyz, 0.0,
+                          normalize(reversed ? -texelFetch(directions, at, 0).xyz : texelFetch(directions, at, 0).xyz), 0.0);
       store(0u, at, node);
       if (clears) hits[at.y * sizePx.x + at.x] = uvec2(kFarthestBits, kHierarchyNoTriangle);
     } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Between two steps: what was written becomes what is read, and how many groups that takes.
+#include "renderer/compute/reduction_bindings.h"
 #include "renderer/techniques/reflections/ray_hierarchy/ray_hierarchy_bindings.h"
 
 layout(local_size_x = 1) in;
@@ -9,7 +10,6 @@ uniform uint capacity, level, raysPerLeaf, mode;
 uniform uint batch;  // whose overflow is noted
 uniform bool isLeaf;
 #ifdef SPARSE
-#include "renderer/compute/reduction_bindings.h"
 layout(std430, binding = kHierarchyReducedBuffer) readonly buffer Reduced { ReducedCount reduced; };
 #endif
 #ifdef SPILL

@@ -6,11 +6,11 @@
 //   SPILL   pairs without room go to a buffer of pairs that wait
 //   SPARSE  four places for each pair, valid or not, that a stream reduction packs; pairs from `capacity` on find no room
 uniform ivec2 sizePx;
+#include "renderer/compute/reduction_bindings.h"
 #include "renderer/techniques/reflections/ray_hierarchy/nodes.glsl"
 #ifdef FINISH
 #include "renderer/techniques/reflections/ray_hierarchy/nearest.glsl"
 #else
-#include "renderer/compute/reduction_bindings.h"
 layout(std430, binding = kHierarchyOutBuffer) writeonly buffer Out { uvec2 outPairs[]; };
 #endif
 #ifdef SPILL
@@ -130,7 +130,7 @@ void main() {
     outPairs[slot + uint(child)] =
         (found >> child & 1u) != 0u
             ? uvec2(nodeOf(childLevel, 2 * place + ivec2(child & 1, child >> 1)), triangle)
-            : uvec2(kInvalidItem);
+            : uvec2(kInvalidItem, 0u);
 #else
   if (gl_LocalInvocationIndex == 0u) groupPairs = 0u;
   barrier();

@@ -13,7 +13,7 @@ bool meet(ivec2 pixel, uint triangle) {
 #ifdef SHADOW
   if (hits[slot].distance == 0u) return false;
   const float t = meeting(origin.xyz, direction.xyz, triangle).x;
-  if (!(t > 0.0 && t < direction.w)) return false;
+  if (!(t > 0.0 && t <= 1.0)) return false;
   hits[slot].distance = 0u;
 #else
   const float t = meeting(origin.xyz, direction.xyz, triangle).x;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "experiments/base/error.h"
+#include "renderer/frame/mirror_rays.h"
 
 namespace limen::techniques {
 namespace {
@@ -168,16 +169,18 @@ void PairTraversal::beginFrame(frame::Frame& frame) {
   storageBarrier();
 }
 
-void PairTraversal::build(const RayTextures& rays, bool clears) {
+void PairTraversal::build(const RayTextures& rays, const glm::vec3* light) {
   nodes_->bindStorage(kHierarchyNodesBuffer);
   hits_.bindStorage(kHierarchyHitsBuffer);
   rays.origins->bindTexture(kHierarchyOriginsUnit);
   rays.directions->bindTexture(kHierarchyDirectionsUnit);
   setLevels(*buildProgram_);
+  buildProgram_->set("reversed", light ? 1 : 0);
+  if (light) buildProgram_->set("lightAt", *light);
   buildProgram_->set("lastLevel", startLevel_);
   for (uint32_t from = 0; from == 0 || from < startLevel_; from += kBuildLevels) {
     buildProgram_->set("fromLevel", from);
-    buildProgram_->set("clears", from == 0 && clears ? 1 : 0);
+    buildProgram_->set("clears", from == 0 && !light ? 1 : 0);
     buildProgram_->dispatch(levelSize(from), glm::ivec2(kBuildSide));
     storageBarrier();
   }
@@ -197,7 +200,7 @@ void PairTraversal::step(uint32_t level, uint32_t batch, uint32_t mode) const {
   storageBarrier();
 }
 
-void PairTraversal::configure(const Programs& programs) const {
+void PairTraversal::configure(const frame::Frame& frame, const Programs& programs) const {
   for (const gl::Program* program :
        {programs.start, programs.finishStart, programs.expand, programs.finish}) {
     setLevels(*program);
@@ -207,6 +210,8 @@ void PairTraversal::configure(const Programs& programs) const {
     program->set("fromLevel", startLevel_);
     if (spills()) program->set("spillCapacity", static_cast<uint32_t>(spills()->room));
   }
+  for (const gl::Program* program : {programs.finishStart, programs.finish, programs.resolve})
+    frame::configureRayOrigins(*program, frame.gpuScene());
   programs.resolve->set("sizePx", sizePx_);
   programs.resolve->set("leafLevel", leafLevel_);
 }
@@ -317,15 +322,15 @@ std::unique_ptr<gl::PassList::Scope> PairTraversal::timedLevel(frame::Frame& fra
 }
 
 void PairTraversal::trace(frame::Frame& frame, const RayTextures& rays, const std::string& name,
-                          bool shadow) {
-  const Programs& programs = shadow ? shadow_ : nearest_;
+                          const glm::vec3* light) {
+  const Programs& programs = light ? shadow_ : nearest_;
   const std::string folder = "reflections/";
   frame.passes().setBytesHeld(folder + "build_" + name, nodes_->bytes());
   {
     const auto scope = frame.passes().open(folder + "build_" + name);
-    build(rays, !shadow);
+    build(rays, light);
   }
-  configure(programs);
+  configure(frame, programs);
   rays.origins->bindTexture(kHierarchyOriginsUnit);
   rays.directions->bindTexture(kHierarchyDirectionsUnit);
   rays.from->bindTexture(kHierarchyFromUnit);
@@ -381,6 +386,11 @@ void PairTraversal::halveBatches() {
     out.push_back({batch.first + half, batch.count - half});
   }
   batches_ = std::move(out);
+}
+
+std::vector<glm::uvec2> PairTraversal::lastPairs() const {
+  const HierarchyControl control = control_->read<HierarchyControl>(0, 1)[0];
+  return streams_[reading_]->read<glm::uvec2>(0, control.inputs);
 }
 
 PairTraversal::Counts PairTraversal::counts() const {

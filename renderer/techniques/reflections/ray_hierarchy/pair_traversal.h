@@ -22,7 +22,7 @@ namespace limen::techniques {
 /// Rays of a frame's size as the hierarchy takes them, one a pixel.
 struct RayTextures {
   const gl::Texture* origins;     ///< RGBA32F, w > 0: a ray starts here
-  const gl::Texture* directions;  ///< RGBA32F, unit; w: of shadow rays the distance up to which things count
+  const gl::Texture* directions;  ///< RGBA32F; unit, but for rays to a light
   const gl::Texture* from;        ///< R32UI, the triangle that each leaves and cannot meet
 };
 
@@ -34,9 +34,12 @@ class PairTraversal {
 
   /// Once a frame, before the others: spheres around triangles, batches as earlier frames advise.
   void beginFrame(frame::Frame& frame);
-  /// Finds the nearest triangle of each ray, or, if `shadow`, sets the distance of a ray's hit to 0 if
-  /// something stands in its way. Passes are named after `name`.
-  void trace(frame::Frame& frame, const RayTextures& rays, const std::string& name, bool shadow);
+  /// Finds the nearest triangle of each ray. With `light`, a point that all rays reach after their
+  /// direction's length: sets the distance of a ray's hit to 0 if something stands in its way; the hierarchy
+  /// is over the reversed rays, which all start at that point (Roger 2008, section 3.3.5). Passes are named
+  /// after `name`.
+  void trace(frame::Frame& frame, const RayTextures& rays, const std::string& name,
+             const glm::vec3* light = nullptr);
   void endFrame();
 
   /// NearestHit per pixel (meet.glsl), then one whose distance is not 0 if results are worthless.
@@ -50,6 +53,12 @@ class PairTraversal {
   };
   /// Of the last frame; waits for the GPU.
   Counts counts() const;
+  /// For tests: the nodes' eight floats each, level by level from the rays; first node and size of a level.
+  const gl::Buffer& nodes() const { return *nodes_; }
+  uint32_t levelFirst(uint32_t level) const { return levelFirst_[level]; }
+  glm::ivec2 levelSize(uint32_t level) const;
+  /// For tests: pairs of the last level (node, triangle) that the last batch ended with; waits for the GPU.
+  std::vector<glm::uvec2> lastPairs() const;
   uint32_t startLevel() const { return startLevel_; }
   uint32_t leafLevel() const { return leafLevel_; }
 
@@ -61,14 +70,13 @@ class PairTraversal {
     const gl::Program *start = nullptr, *expand = nullptr, *finishStart = nullptr, *finish = nullptr,
                       *resolve = nullptr;
   };
-  glm::ivec2 levelSize(uint32_t level) const;
   void setLevels(const gl::Program& program) const;
-  void build(const RayTextures& rays, bool clears);
+  void build(const RayTextures& rays, const glm::vec3* light);
   enum class Buffers { Streams, Rays };
   const SeparateReduction* separate() const { return std::get_if<SeparateReduction>(&settings_.reduction); }
   const SpilledPairs* spills() const { return std::get_if<SpilledPairs>(&settings_.overflow); }
   void compilePrograms(gl::ProgramCache& cache, bool shadows);
-  void configure(const Programs& programs) const;
+  void configure(const frame::Frame& frame, const Programs& programs) const;
   void bind(frame::Frame& frame, Buffers use, const gl::Buffer* out) const;
   void dispatchCounted(const gl::Program& program, size_t offset) const;
   void start(frame::Frame& frame, uint32_t number, const Programs& programs, const std::string& name);

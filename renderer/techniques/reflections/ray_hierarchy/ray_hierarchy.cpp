@@ -12,7 +12,9 @@
 #include <optional>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/mirror_path.h"
 #include "renderer/frame/mirror_rays.h"
+#include "renderer/frame/mirror_trace.h"
 #include "renderer/techniques/reflections/ray_hierarchy/pair_traversal.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/technique.h"
@@ -26,8 +28,7 @@ constexpr EnumNames<PrimaryRays, 2> enumNames(PrimaryRays) {
 }
 
 struct RayHierarchySettings {
-  int bounces = 1, shadowLevels = 0;
-  double leastShare = 0.0;
+  frame::MirrorPathSettings path;
   PrimaryRays primary = PrimaryRays::Raster;
   bool refraction = false;
   TraversalSettings traversal;
@@ -38,24 +39,7 @@ struct RayHierarchySettings {
 const SettingsTable<RayHierarchySettings>& RayHierarchySettings::table() {
   using S = RayHierarchySettings;
   static const SettingsTable<S> kTable = {
-      {&S::bounces,
-       "bounces",
-       {1, 16},
-       "",
-       "Mirrors that light meets on its way to the eye at most",
-       "Roger 2008, section 3.5"},
-      {&S::shadowLevels,
-       "shadow_levels",
-       {0, 16},
-       "bounces",
-       "First bounces whose points are shadowed, by rays from the light's centre",
-       "Roger 2008, sections 3.3.5 and 3.5"},
-      {&S::leastShare,
-       "least_share",
-       {0.0, 1.0},
-       "",
-       "Largest share of its light at which a ray is not followed further",
-       "Roger 2008, section 1.2.2"},
+      included(&S::path),
       {&S::primary, "primary", "How the surfaces that pixels see are found",
        "raster in Roger 2008, section 3.2.2; both possible, section 3.3.5"},
       {&S::refraction, "refraction",
@@ -93,21 +77,22 @@ class RayHierarchyReflections : public Technique {
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/reflections/ray_hierarchy/";
     gl::ProgramCache& cache = frame.context().programs();
-    gl::ShaderDefines defines = shadingDefines(settings_.shading, frame);
+    gl::ShaderDefines defines = frame::mirrorTraceDefines(settings_.shading, frame);
     if (settings_.refraction) defines["REFRACT"] = "1";
     shade_ = &cache.compute(folder + "shade.comp.glsl", defines);
-    shadows_ = frame.scene().lights.empty() ? 0 : settings_.shadowLevels;
-    if (shadows_ > 0) {
+    lit_ = !frame.scene().lights.empty();
+    const bool shadows = lit_ && (settings_.path.shadows > 0 || (traced() && settings_.shading.shadow));
+    if (shadows) {
       defines["POINTS"] = "1";
       points_ = &cache.compute(folder + "shade.comp.glsl", defines);
     }
     if (traced()) primary_ = &cache.compute(folder + "primary.comp.glsl");
-    traversal_.emplace(frame, settings_.traversal, shadows_ > 0);
+    traversal_.emplace(frame, settings_.traversal, shadows);
     const glm::ivec2 size = frame.sizePx();
     // The first rays are the frame's, unless they are traced; then two in turn, and the shadows'.
     int64_t bytes = 0;
     for (std::optional<OwnRays>& rays : own_) bytes += rays.emplace(size).bytes();
-    if (shadows_ > 0) bytes += toLight_.emplace(size).bytes();
+    if (shadows) bytes += toLight_.emplace(size).bytes();
     sums_.emplace(gl::Format::RGBA32F, size);
     shares_.emplace(gl::Format::RGBA32F, size);
     frame.passes().setBytesHeld("reflections/shade_1",
@@ -131,16 +116,17 @@ class RayHierarchyReflections : public Technique {
       rays = {&mirrors.origins(), &mirrors.directions(), &frame.get<frame::TriangleIds>().texture()};
     }
     traversal_->beginFrame(frame);
-    const int rounds = settings_.bounces + (traced() ? 1 : 0);
+    const int rounds = settings_.path.bounces + (traced() ? 1 : 0);
     for (int round = 0; round < rounds; ++round) {
       const std::string name = std::to_string(traced() ? round : round + 1);
-      traversal_->trace(frame, rays, name, false);
-      if (round < shadows_) {
+      traversal_->trace(frame, rays, name);
+      if (shadowed(round)) {
         {
           const auto scope = frame.passes().open("reflections/shadow_rays_" + name);
           shade(frame, *points_, rays, *toLight_, round, rounds);
         }
-        traversal_->trace(frame, toLight_->textures(), "shadows_" + name, true);
+        const glm::vec3 light(frame.scene().lights[0].centre - frame.gpuScene().anchor());
+        traversal_->trace(frame, toLight_->textures(), "shadows_" + name, &light);
       }
       const auto scope = frame.passes().open("reflections/shade_" + name);
       const OwnRays& next = *own_[static_cast<size_t>(round % 2)];
@@ -191,15 +177,26 @@ class RayHierarchyReflections : public Technique {
 
  private:
   bool traced() const { return settings_.primary == PrimaryRays::Traced; }
+  /// What traced primary rays meet is shadowed as Shaded would, but by rays.
+  bool shadowed(int round) const {
+    if (!lit_) return false;
+    if (!traced()) return round < settings_.path.shadows;
+    return round == 0 ? settings_.shading.shadow : round <= settings_.path.shadows;
+  }
 
   void shade(frame::Frame& frame, const gl::Program& program, const RayTextures& rays, const OwnRays& next,
              int round, int rounds) const {
     frame::configureShading(program, frame, settings_.shading);
     program.set("first", round == 0 ? 1 : 0);
     program.set("last", round + 1 == rounds ? 1 : 0);
-    program.set("leastShare", static_cast<float>(settings_.leastShare));
-    if (!frame.scene().lights.empty())
-      program.set("lightAt", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
+    program.set("traced", traced() ? 1 : 0);
+    program.set("leastShare", static_cast<float>(settings_.path.leastShare));
+    program.set("flatShading", settings_.shading.smoothNormals ? 0 : 1);
+    configureRayOrigins(program, frame.gpuScene());
+    if (!traced()) {
+      frame.get<frame::MirrorRays>().directions().bindTexture(kHierarchySeenUnit);
+      frame.get<frame::TriangleIds>().texture().bindTexture(kHierarchySeenIdsUnit);
+    }
     traversal_->hits().bindStorage(kHierarchyHitsBuffer);
     rays.origins->bindTexture(kHierarchyOriginsUnit);
     rays.directions->bindTexture(kHierarchyDirectionsUnit);
@@ -222,7 +219,7 @@ class RayHierarchyReflections : public Technique {
   RayHierarchySettings settings_;
   ReflectionPicture picture_;
   const gl::Program *shade_ = nullptr, *points_ = nullptr, *primary_ = nullptr;
-  int shadows_ = 0;
+  bool lit_ = false;
   std::optional<PairTraversal> traversal_;
   std::array<std::optional<OwnRays>, 2> own_;
   std::optional<OwnRays> toLight_;

@@ -29,8 +29,6 @@ const int kBuildSide = 16;  // nodes a side that a group merges: four levels a d
 const int kBuildLevels = 4;
 const int kTraversalGroup = 128;
 const uint kHierarchyNoTriangle = 0xffffffffu;
-const float kShadowMargin =
-    1e-4f;  // of the distance to the light, next to a lit point, in which nothing shadows it
 const uint kFarthestBits = 0x7f7fffffu;  // of the largest float
 const uint kDispatchRow = 65535u;
 
@@ -77,9 +75,9 @@ const uint kControlLaterBatch = 2u;  // pairs that waited are read next
 // Rays.
 const uint kHierarchyOriginsUnit = 0u;
 const uint kHierarchyDirectionsUnit = 1u;
-const uint kHierarchyFromUnit = 2u;  // triangles that rays leave
-const uint kHierarchySumsUnit = 3u;
-const uint kHierarchySharesUnit = 4u;
+const uint kHierarchyFromUnit = 2u;     // triangles that rays leave
+const uint kHierarchySeenUnit = 3u;     // directions of the first rays
+const uint kHierarchySeenIdsUnit = 4u;  // triangles that pixels see
 const uint kHierarchyNextOriginsImage = 0u;
 const uint kHierarchyNextDirectionsImage = 1u;
 const uint kHierarchyNextFromImage = 2u;
