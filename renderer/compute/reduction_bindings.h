@@ -31,6 +31,17 @@ const uint kReductionStateBuffer = 3u;    // of the form: sums of tiles or block
 const uint kReductionCountInBuffer = 4u;  // where the number of items is, if the GPU alone knows it
 const uint kReductionCountBuffer = 5u;    // ReducedCount
 
+const uint kReductionSumsBuffer = 6u;     // invalid items up to each, or sums over blocks
+const uint kReductionFetchesBuffer = 7u;  // where fetches of searches are counted
+const int kBlockGroup = 128;              // invocations that take a block or a place each
+const int kLongestBlock = 512;
+
+// Stages that have no storage buffers read buffer textures.
+const uint kReductionItemsUnit = 0u;
+const uint kReductionFlagsUnit = 1u;
+const uint kReductionSumsUnit = 1u;
+const uint kReductionCountUnit = 2u;
+
 // Scatter and append: a group takes a tile of kReductionRows rows of kReductionGroup x 16 bytes.
 const int kReductionGroup = 256;
 const int kReductionRows = 4;
@@ -40,6 +51,12 @@ const uint kReductionNothing = 0u;
 const uint kReductionOwn = 0x40000000u;  // the tile's own count
 const uint kReductionAll = 0x80000000u;  // of all tiles up to it
 const uint kReductionCountMask = 0x3fffffffu;
+// scan.h.
+const int kScanStepGroup = 256;
+const uint kScanInBuffer = 0u;
+const uint kScanOutBuffer = 1u;
+const uint kScanFromBuffer = 2u;
+const uint kScanToBuffer = 3u;
 // Words before the tiles' states.
 const uint kReductionStarted = 0u;
 const uint kReductionFinished = 1u;

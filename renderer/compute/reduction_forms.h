@@ -13,17 +13,29 @@ class StreamReduction::BackEnd {
  public:
   virtual ~BackEnd() = default;
   virtual void run(const StreamInput& in, const StreamOutput& out) const = 0;
+  /// Where a form that searches counts its fetches; null: it does not search.
+  virtual const gl::Buffer* fetches() const { return nullptr; }
   virtual int64_t bytes() const = 0;
 };
 
 std::unique_ptr<StreamReduction::BackEnd> makeScatterForm(gl::Context& context, uint32_t most,
                                                           const ReductionSettings& settings,
                                                           ReductionForm form);
+std::unique_ptr<StreamReduction::BackEnd> makeBlockSequentialForm(gl::Context& context, uint32_t most,
+                                                                  const ReductionSettings& settings);
+std::unique_ptr<StreamReduction::BackEnd> makeSearchForm(gl::Context& context, uint32_t most,
+                                                         const ReductionSettings& settings);
+std::unique_ptr<StreamReduction::BackEnd> makeHierarchicalForm(gl::Context& context, uint32_t most,
+                                                               const ReductionSettings& settings);
+std::unique_ptr<StreamReduction::BackEnd> makeGeometryShaderForm(gl::Context& context, uint32_t most,
+                                                                 const ReductionSettings& settings);
 
-/// LANES and FLAGGED, as reduction_items.glsl takes them.
+/// LANES, FLAGGED, IMPROVED and COUNT_FETCHES, as the shaders take them.
 inline gl::ShaderDefines reductionDefines(const ReductionSettings& settings) {
   gl::ShaderDefines out{{"LANES", std::to_string(settings.lanes)}};
   if (settings.flagged) out["FLAGGED"] = "1";
+  if (settings.search == ItemSearch::Improved) out["IMPROVED"] = "1";
+  if (settings.countFetches) out["COUNT_FETCHES"] = "1";
   return out;
 }
 
@@ -48,6 +60,13 @@ inline void dispatchGroups(uint32_t groups) {
   if (groups == 0) return;
   const uint32_t rows = (groups + 65534) / 65535;
   glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+inline uint32_t blocksOf(uint32_t items, uint32_t size) { return items == 0 ? 1 : (items - 1) / size + 1; }
+
+inline void clearFetches(const gl::Buffer& fetches) {
+  fetches.clearUint(0);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

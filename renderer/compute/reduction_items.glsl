@@ -5,10 +5,10 @@
 
 #if LANES == 1
 #define ITEM uint
-#define WORD(item) (item)
+#define FIRST_WORD(item) (item)
 #else
 #define ITEM uvec2
-#define WORD(item) (item).x
+#define FIRST_WORD(item) (item).x
 #endif
 
 layout(std430, binding = kReductionCountInBuffer) readonly buffer CountIn { uint countIn[]; };

@@ -20,14 +20,57 @@ enum class ReductionForm {
   /// One dispatch that reads each item once and writes each valid one once: a tile waits for the counts of
   /// those before it (Merrill and Garland 2016); PrefixSum says why that ends on any device.
   LookBack,
-  ScanScatter,  ///< counts of tiles, sums over these, scatter: three dispatches that read items twice
-  Append        ///< a tile takes its place by an atomic addition: items come in no particular order
+  ScanScatter,      ///< counts of tiles, sums over these, scatter: three dispatches that read items twice
+  BlockSequential,  ///< an invocation takes a whole block, item by item; sums over blocks, scatter
+                    ///< (Roger 2008, section 4.6)
+  Append,           ///< a tile takes its place by an atomic addition: items come in no particular order
+  // Without scatter: each place of the output searches for its item.
+  Horn,           ///< Hillis-Steele scan of the whole stream, dichotomic search in it (Horn 2005)
+  GlobalSearch,   ///< the same with Blelloch's scan (Sengupta et al. 2006)
+  Hierarchical,   ///< scan and search within blocks, which are then joined (Roger 2008, section 4.3)
+  GeometryShader  ///< a geometry shader drops invalid items; transform feedback captures the others
 };
-constexpr EnumNames<ReductionForm, 4> enumNames(ReductionForm) {
+constexpr EnumNames<ReductionForm, 9> enumNames(ReductionForm) {
   return {{{{ReductionForm::Scatter, "scatter"},
             {ReductionForm::LookBack, "look_back"},
             {ReductionForm::ScanScatter, "scan_scatter"},
-            {ReductionForm::Append, "append"}}}};
+            {ReductionForm::BlockSequential, "block_sequential"},
+            {ReductionForm::Append, "append"},
+            {ReductionForm::Horn, "horn"},
+            {ReductionForm::GlobalSearch, "global_search"},
+            {ReductionForm::Hierarchical, "hierarchical"},
+            {ReductionForm::GeometryShader, "geometry_shader"}}}};
+}
+
+/// How sums are made where a scan of the thesis is meant; scan.h has both over whole arrays.
+enum class ScanAlgorithm {
+  HillisSteele,  ///< log2 n steps, n log2 n additions
+  Blelloch       ///< up and down a tree: 2 log2 n steps, 2 n additions
+};
+constexpr EnumNames<ScanAlgorithm, 2> enumNames(ScanAlgorithm) {
+  return {{{{ScanAlgorithm::HillisSteele, "hillis_steele"}, {ScanAlgorithm::Blelloch, "blelloch"}}}};
+}
+
+/// How a place of the output finds its item.
+enum class ItemSearch {
+  Fixed,    ///< halves the range a fixed number of times, log2 of its size
+  Improved  ///< Roger 2008, figure 4.7: the sums say how far off a guess is at least
+};
+constexpr EnumNames<ItemSearch, 2> enumNames(ItemSearch) {
+  return {{{{ItemSearch::Fixed, "fixed"}, {ItemSearch::Improved, "improved"}}}};
+}
+
+/// How the blocks of Hierarchical are joined.
+enum class BlockJoin {
+  Compute,     ///< an invocation for each item moves it
+  LinesTwice,  ///< each block is drawn as a line, twice: what passes the end of a row and what begins the
+               ///< next
+  LinesSplit   ///< each block is drawn as a line that a geometry shader splits at the end of a row
+};
+constexpr EnumNames<BlockJoin, 3> enumNames(BlockJoin) {
+  return {{{{BlockJoin::Compute, "compute"},
+            {BlockJoin::LinesTwice, "lines_twice"},
+            {BlockJoin::LinesSplit, "lines_split"}}}};
 }
 
 struct ReductionSettings {
@@ -35,6 +78,14 @@ struct ReductionSettings {
   int lanes = 1;         ///< words of an item: 1 or 2 (uvec2)
   bool flagged = false;  ///< valid are the items whose flag is not 0, rather than those that differ from
                          ///< kInvalidItem in their first word
+  int blockSize = 64;    ///< BlockSequential, Hierarchical: items, a power of two from 8 to 512
+  ScanAlgorithm blockScan = ScanAlgorithm::HillisSteele;  ///< Hierarchical
+  ItemSearch search = ItemSearch::Improved;               ///< Horn, GlobalSearch, Hierarchical
+  BlockJoin join = BlockJoin::Compute;                    ///< Hierarchical
+  /// Lines: width of the texture that they are drawn into, a power of two of at least blockSize. What it
+  /// holds is then copied to the output.
+  int rowWidth = 2048;
+  bool countFetches = false;  ///< see StreamReduction::fetches(); slower
 };
 
 /// A stream. Buffers have at least bytesFor(most, lanes) bytes; those of flags bytesFor(most, 1).
@@ -73,6 +124,9 @@ class StreamReduction {
   /// The form that runs: never Scatter.
   ReductionForm form() const;
   bool ordered() const { return form() != ReductionForm::Append; }
+  /// Sums and marks of validity that searches fetched in the last run, with ReductionSettings::countFetches;
+  /// 0 for forms that do not search. Modulo 2^32. Waits for the GPU.
+  uint32_t fetches() const;
   /// Held besides input and output.
   int64_t bytes() const;
 

@@ -94,12 +94,13 @@ class ReductionTest : public gl::GlTest {
   static std::vector<ReductionSettings> settingsOfAllForms();
   static std::string describe(const ReductionSettings& settings) {
     return std::string(toText(settings.form)) + ", " + std::to_string(settings.lanes) + " words" +
-           (settings.flagged ? ", flagged" : "");
+           (settings.flagged ? ", flagged" : "") + ", blocks of " + std::to_string(settings.blockSize) +
+           ", " + toText(settings.blockScan) + ", " + toText(settings.search) + ", " + toText(settings.join) +
+           ", rows of " + std::to_string(settings.rowWidth);
   }
   /// Around multiples of blocks, of groups and of tiles.
   static std::vector<uint32_t> counts() {
-    return {0,    1,    2,    3,    4,    5,    7,    8,    9,    63,   64,    65,    511,    512,   513,
-            1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097, 8193, 12345, 65537, 262145, 300000};
+    return {0, 1, 2, 3, 5, 7, 8, 9, 63, 64, 65, 511, 512, 513, 2047, 2049, 4095, 4096, 4097, 12345, 100003};
   }
 
  private:
@@ -112,10 +113,33 @@ class ReductionTest : public gl::GlTest {
 
 inline std::vector<ReductionSettings> ReductionTest::settingsOfAllForms() {
   std::vector<ReductionSettings> out;
-  for (const ReductionForm form :
-       {ReductionForm::LookBack, ReductionForm::ScanScatter, ReductionForm::Append})
+  const auto add = [&](ReductionSettings settings) {
     for (const int lanes : {1, 2})
-      for (const bool flagged : {false, true}) out.push_back({form, lanes, flagged});
+      for (const bool flagged : {false, true}) {
+        settings.lanes = lanes, settings.flagged = flagged;
+        out.push_back(settings);
+      }
+  };
+  for (const ReductionForm form : {ReductionForm::LookBack, ReductionForm::ScanScatter, ReductionForm::Append,
+                                   ReductionForm::GeometryShader})
+    add({.form = form});
+  for (const int blockSize : {8, 64, 512})
+    add({.form = ReductionForm::BlockSequential, .blockSize = blockSize});
+  for (const ItemSearch search : {ItemSearch::Fixed, ItemSearch::Improved}) {
+    for (const ReductionForm form : {ReductionForm::Horn, ReductionForm::GlobalSearch})
+      add({.form = form, .search = search});
+    for (const int blockSize : {8, 64, 512})
+      for (const ScanAlgorithm scan : {ScanAlgorithm::HillisSteele, ScanAlgorithm::Blelloch})
+        add({.form = ReductionForm::Hierarchical,
+             .blockSize = blockSize,
+             .blockScan = scan,
+             .search = search});
+  }
+  // Rows so short that most blocks wrap, and longer ones.
+  for (const BlockJoin join : {BlockJoin::LinesTwice, BlockJoin::LinesSplit}) {
+    add({.form = ReductionForm::Hierarchical, .blockSize = 64, .join = join, .rowWidth = 64});
+    add({.form = ReductionForm::Hierarchical, .blockSize = 8, .join = join, .rowWidth = 1024});
+  }
   return out;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
+#include <string>
 
 #include "tests/renderer/compute/reduction_fixture.h"
 
@@ -24,6 +26,75 @@ TEST_F(StreamReductions, KeepTheValidItemsInOrderForAnyCount) {
 }
 
 // The second word of a ReducedCount, as an earlier reduction leaves it.
+// Roger 2008, L1788 to L1815: blocks of 16, X invalid. Blocks of 8 and 32 must give the same.
+TEST_F(StreamReductions, ReduceTheWorkedExampleOfTheThesis) {
+  const std::string text = "43X192XX7X6X58X5431X2X6XX7X98XX5X87XX235XXX6XX1X1XXX45X7X6X8329X";
+  const std::string expected = "43192765854312679858723561145768329";
+  for (const ReductionSettings& settings : settingsOfAllForms()) {
+    if (settings.lanes != 1 || settings.flagged || settings.form == ReductionForm::Append) continue;
+    for (const int blockSize : {8, 16, 32}) {
+      ReductionSettings with = settings;
+      with.blockSize = blockSize;
+      Items in;
+      for (const char c : text) in.words.push_back(c == 'X' ? kInvalidItem : static_cast<uint32_t>(c - '0'));
+      in.count = static_cast<uint32_t>(text.size());
+      std::string found;
+      for (const uint32_t word : reduced(StreamReduction(context(), 64, with), with, in))
+        found += static_cast<char>('0' + word);
+      EXPECT_EQ(found, expected) << describe(with);
+    }
+  }
+}
+
+// Blocks of 8 in rows of 16 texels, with every number of valid items from 0 to 8: lines start and end at each
+// column, at the ends of rows too, some have no length, and some wrap by 1 to 7 texels.
+TEST_F(StreamReductions, DrawLinesThatWrapAtAnyColumn) {
+  for (const BlockJoin join : {BlockJoin::LinesTwice, BlockJoin::LinesSplit}) {
+    const ReductionSettings settings{
+        .form = ReductionForm::Hierarchical, .blockSize = 8, .join = join, .rowWidth = 16};
+    std::set<std::pair<uint32_t, uint32_t>> seen;  // column, length
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+      std::mt19937 random(seed);
+      std::vector<bool> valid;
+      uint32_t column = 0;
+      for (int block = 0; block < 300; ++block) {
+        const uint32_t length = random() % 9;
+        seen.insert({column, length});
+        column = (column + length) % 16;
+        std::vector<bool> items(8, false);
+        std::fill(items.begin(), items.begin() + length, true);
+        std::shuffle(items.begin(), items.end(), random);
+        valid.insert(valid.end(), items.begin(), items.end());
+      }
+      const Items in = itemsOf(valid, settings);
+      ASSERT_EQ(reduced(StreamReduction(context(), in.count, settings), settings, in),
+                sequentially(in, settings))
+          << describe(settings);
+    }
+    EXPECT_EQ(seen.size(), 16U * 9U) << "some column and length did not occur";
+  }
+}
+
+// Of 64 items 26 are invalid on average (60 % valid). A search by figure 4.7 takes few steps; the fixed one
+// always 6. Each valid item's search fetches the two sums that bound it, and an absent one the first of these
+// alone.
+TEST_F(StreamReductions, CountWhatTheImprovedSearchSaves) {
+  ReductionSettings settings{.form = ReductionForm::Hierarchical, .blockSize = 64, .countFetches = true};
+  const Items in = randomItems(64 * 500, 0.6, settings);
+  const auto valid = static_cast<uint32_t>(sequentially(in, settings).size());
+  const auto fetchesBy = [&](ItemSearch search) {
+    settings.search = search;
+    const StreamReduction reduction(context(), in.count, settings);
+    EXPECT_EQ(reduced(reduction, settings, in), sequentially(in, settings));
+    return reduction.fetches();
+  };
+  EXPECT_EQ(fetchesBy(ItemSearch::Fixed), in.count + valid * 7);
+  const uint32_t improved = fetchesBy(ItemSearch::Improved);
+  // At least a guess and the proof that it is valid.
+  EXPECT_GE(improved, in.count + valid * 3);
+  EXPECT_LT(improved, in.count + valid * 7);
+}
+
 TEST_F(StreamReductions, TakeTheNumberOfItemsFromTheGpu) {
   for (const ReductionSettings& settings : settingsOfAllForms()) {
     const StreamReduction reduction(context(), 20000, settings);
