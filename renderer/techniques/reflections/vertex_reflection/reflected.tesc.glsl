@@ -8,6 +8,7 @@ in vec3 cornerPosition[];
 in vec4 cornerReflected[];
 out vec3 patchPosition[];
 out vec4 patchReflected[];
+out float edgeSegments[];  // of the edge that the corner is not on
 uniform float tolerancePx;
 uniform int mostSegments;
 uniform float nearness;  // of points that project, as clip w
@@ -38,8 +39,12 @@ void main() {
   const int i = gl_InvocationID, j = (i + 1) % 3, k = (i + 2) % 3;
   patchPosition[gl_InvocationID] = cornerPosition[i];
   patchReflected[gl_InvocationID] = cornerReflected[i];
-  // Outer level i belongs to the edge that corner i is not on.
-  gl_TessLevelOuter[i] = segmentsOf(min(j, k), max(j, k));
+  edgeSegments[gl_InvocationID] = segmentsOf(min(j, k), max(j, k));
   barrier();
-  if (i == 0) gl_TessLevelInner[0] = max(gl_TessLevelOuter[0], max(gl_TessLevelOuter[1], gl_TessLevelOuter[2]));
+  if (gl_InvocationID != 0) return;
+  // Outer level i belongs to the edge that corner i is not on.
+  gl_TessLevelOuter[0] = edgeSegments[0];
+  gl_TessLevelOuter[1] = edgeSegments[1];
+  gl_TessLevelOuter[2] = edgeSegments[2];
+  gl_TessLevelInner[0] = max(edgeSegments[0], max(edgeSegments[1], edgeSegments[2]));
 }

@@ -9,18 +9,23 @@
 namespace limen::reflections {
 namespace {
 
+constexpr uint32_t kUnplaced = 0xffffffffU;
 constexpr size_t kMostTriangles = size_t{1} << 24;
 
 class Divider {
  public:
   Divider(const scene::Mesh& mesh, int segments, glm::dvec3 anchor)
       : mesh_(mesh), n_(segments), anchor_(anchor) {
-    for (const glm::dvec3& position : mesh.positions) out_.positions.emplace_back(position - anchor);
+    corners_.assign(mesh.positions.size(), kUnplaced);
     out_.perTriangle = segments * segments;
   }
 
   ReflectedMesh all() {
-    for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) divide(i);
+    for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      out_.firstVertices.push_back(static_cast<uint32_t>(out_.positions.size()));
+      divide(i);
+    }
+    out_.firstVertices.push_back(static_cast<uint32_t>(out_.positions.size()));
     return std::move(out_);
   }
 
@@ -46,16 +51,20 @@ class Divider {
 
   uint32_t vertex(const glm::uvec3& corners, glm::ivec3 weights) {
     for (int k = 0; k < 3; ++k)
-      if (weights[k] == n_) return corners[k];
+      if (weights[k] == n_) {
+        uint32_t& known = corners_[corners[k]];
+        if (known == kUnplaced) known = place(mesh_.positions[corners[k]]);
+        return known;
+      }
     for (int k = 0; k < 3; ++k)
       if (weights[k] == 0) {
         uint32_t from = corners[(k + 1) % 3], to = corners[(k + 2) % 3];
         int along = weights[(k + 2) % 3];
         if (from > to) std::swap(from, to), along = n_ - along;
         std::vector<uint32_t>& edge = edges_[{from, to}];
-        if (edge.empty()) edge.assign(static_cast<size_t>(n_), 0);
+        if (edge.empty()) edge.assign(static_cast<size_t>(n_), kUnplaced);
         uint32_t& known = edge[static_cast<size_t>(along)];
-        if (known == 0) {
+        if (known == kUnplaced) {
           const double t = double(along) / n_;
           known = place((1.0 - t) * mesh_.positions[from] + t * mesh_.positions[to]);
         }
@@ -75,10 +84,21 @@ class Divider {
   int n_;
   glm::dvec3 anchor_;
   ReflectedMesh out_;
+  std::vector<uint32_t> corners_;  // by vertex of the scene
   std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> edges_;
 };
 
 }  // namespace
+
+ReflectedMesh::Range ReflectedMesh::ownVertices(uint32_t firstTriangle, uint32_t triangleCount) const {
+  const Range own{firstVertices[firstTriangle],
+                  firstVertices[firstTriangle + triangleCount] - firstVertices[firstTriangle]};
+  const size_t end = size_t{firstTriangle + triangleCount} * static_cast<size_t>(perTriangle);
+  for (size_t i = end; i < triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (triangles[i][k] >= own.first && triangles[i][k] - own.first < own.count) return {};
+  return own;
+}
 
 ReflectedMesh divided(const scene::Mesh& mesh, int segments, glm::dvec3 anchor) {
   const size_t triangles = mesh.triangles.size() * static_cast<size_t>(segments) * segments;

@@ -12,6 +12,15 @@ struct ReflectedMesh {
   std::vector<glm::uvec3> triangles;
   std::vector<uint32_t> sources;  ///< for each triangle that of the scene
   int perTriangle = 1;            ///< of each of the scene, in order
+  /// For each triangle of the scene, and at the end, the number of vertices that those before it have:
+  /// vertices are numbered in the order of their first use.
+  std::vector<uint32_t> firstVertices;
+
+  struct Range {
+    uint32_t first = 0, count = 0;
+  };
+  /// Vertices that no triangle needs but the given ones of the scene; empty if others share some.
+  Range ownVertices(uint32_t firstTriangle, uint32_t triangleCount) const;
 };
 
 /// `segments` >= 1 on each edge. Throws Error if the result has more than 2^24 triangles.

@@ -16,7 +16,7 @@ constexpr double kLeastStarCosine = 1e-4;
 }  // namespace
 
 std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                      size_t reflectedVertices) {
+                                      const reflections::ReflectedMesh& reflected) {
   std::vector<Reflector> out;
   for (const scene::Part& part : scene.parts) {
     if (part.triangleCount == 0 || !scene.materials[part.material].reflects()) continue;
@@ -29,10 +29,10 @@ std::vector<Reflector> makeReflectors(const scene::Scene& scene, const Reflector
     const auto mesh = std::make_shared<const reflections::StarMesh>(scene.mesh, range, centre.position);
     const reflections::StarMap map = reflections::bakeStarMap(
         reflections::StarMesh::surface(mesh), settings.layout, settings.resolution, centre.meanRadius);
-    const std::vector<glm::vec4> none(reflectedVertices, glm::vec4(0.0F));
+    const std::vector<glm::vec4> none(reflected.positions.size(), glm::vec4(0.0F));
     out.push_back({range, centre, mesh, map.filledShare,
                    ReflectorTexture(map, settings.format == MapFormat::Rgba16f, settings.filter),
-                   gl::Buffer(none)});
+                   reflected.ownVertices(part.firstTriangle, part.triangleCount), gl::Buffer(none)});
   }
   return out;
 }
@@ -42,6 +42,7 @@ gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMap
   defineEnum(defines, "GRADIENT", solver.gradient);
   defineEnum(defines, "GUESS", solver.guess);
   defineEnum(defines, "SAFEGUARD", solver.safeguard);
+  defineEnum(defines, "STOP", solver.stop);
   defines["CAP"] = std::to_string(solver.cap);
   if (map.layout == reflections::MapLayout::LatLong) defines["MAP_LAT_LONG"] = "1";
   return defines;

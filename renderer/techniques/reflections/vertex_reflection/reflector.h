@@ -6,6 +6,7 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
+#include "renderer/techniques/reflections/vertex_reflection/reflected_mesh.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflector_texture.h"
 #include "renderer/techniques/reflections/vertex_reflection/star_mesh.h"
 #include "renderer/techniques/reflections/vertex_reflection/vertex_reflection_settings.h"
@@ -19,12 +20,13 @@ struct Reflector {
   std::shared_ptr<const reflections::StarMesh> mesh;
   double filledShare = 0.0;
   ReflectorTexture map;
+  reflections::ReflectedMesh::Range ownVertices;  ///< which are not reflected in it
   gl::Buffer reflected;  ///< vec4 a vertex of the reflected mesh, see vertex_reflection_bindings.h
 };
 
 /// One for each part whose material reflects. Throws Error if a part is not star-shaped.
 std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                      size_t reflectedVertices);
+                                      const reflections::ReflectedMesh& mesh);
 
 /// Defines and uniforms of secant.glsl.
 gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMapSettings& map);

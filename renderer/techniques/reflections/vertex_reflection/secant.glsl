@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reflection point of a vertex on a star-shaped reflector by a secant method with three samples. See secant_solver.h,
 // whose twin in single precision this is, and Roger 2008, section 2.2. Lengths within are over the reflector's mean
-// radius and relative to its centre. Defines: CAP, GRADIENT, GUESS, SAFEGUARD with the names of enumerations.
+// radius and relative to its centre. Defines: CAP, GRADIENT, GUESS, SAFEGUARD, STOP with the names of enumerations.
 #include "renderer/techniques/reflections/vertex_reflection/vertex_reflection_bindings.h"
 
 #ifdef MAP_LAT_LONG
@@ -68,11 +68,18 @@ bool placeOf(vec3 point, out vec2 place) {
   return clip.w > 0.0;
 }
 
-float projectedArea(PathSample a, PathSample b, PathSample c) {
+// Area, or half the square of the longest side.
+float projectedSize(PathSample a, PathSample b, PathSample c) {
   vec2 pa, pb, pc;
   const bool ok = placeOf(a.point, pa) && placeOf(b.point, pb) && placeOf(c.point, pc);
   const vec2 u = pb - pa, v = pc - pa;
-  return ok ? 0.5 * abs(u.x * v.y - u.y * v.x) : 1e30;
+  if (!ok) return 1e30;
+#if STOP == STOP_LONGEST_SIDE
+  const vec2 w = v - u;
+  return 0.5 * max(dot(u, u), max(dot(v, v), dot(w, w)));
+#else
+  return 0.5 * abs(u.x * v.y - u.y * v.x);
+#endif
 }
 
 void triangleAround(vec3 middle, float side, out vec3 first, out vec3 second, out vec3 third) {
@@ -106,7 +113,7 @@ PathSample secant(vec3 vertex, vec3 first, vec3 second, vec3 third, inout uint i
   bool hasDiscarded = false;
   for (int i = 1; i < 3; ++i)
     if (s[i].length < best.length) best = s[i];
-  converged = projectedArea(s[0], s[1], s[2]) < stopAreaPx2;
+  converged = projectedSize(s[0], s[1], s[2]) < stopAreaPx2;
   for (int step = 0; step < CAP && !converged; ++step) {
     ++iterations;
     const vec3 a = s[0].gradient - s[2].gradient, b = s[1].gradient - s[2].gradient, c = s[2].gradient;
@@ -135,7 +142,7 @@ PathSample secant(vec3 vertex, vec3 first, vec3 second, vec3 third, inout uint i
       newest = at;
       if (s[at].length < best.length) best = s[at];
     }
-    converged = projectedArea(s[0], s[1], s[2]) < stopAreaPx2;
+    converged = projectedSize(s[0], s[1], s[2]) < stopAreaPx2;
   }
 #if SAFEGUARD == SAFEGUARD_NONE
   best = s[0];

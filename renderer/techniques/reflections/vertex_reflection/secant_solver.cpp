@@ -57,15 +57,16 @@ size_t best(const Triple& samples) {
   return at;
 }
 
-double projectedArea(const Triple& samples, const ToScreen& toScreen) {
+double projectedSize(const Triple& samples, const ToScreen& toScreen, StopMeasure measure) {
   std::array<glm::dvec2, 3> places;
   for (size_t i = 0; i < 3; ++i) {
     const auto place = toScreen(samples[i].point);
     if (!place) return HUGE_VAL;
     places[i] = *place;
   }
-  const glm::dvec2 u = places[1] - places[0], v = places[2] - places[0];
-  return 0.5 * std::abs(u.x * v.y - u.y * v.x);
+  const glm::dvec2 u = places[1] - places[0], v = places[2] - places[0], w = v - u;
+  if (measure == StopMeasure::Area) return 0.5 * std::abs(u.x * v.y - u.y * v.x);
+  return 0.5 * std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
 }
 
 class Solver {
@@ -109,7 +110,8 @@ class Solver {
   bool done() const {
     const double least = samples_[best(samples_)].length;
     if (settings_.gradientTolerance > 0.0 && least < settings_.gradientTolerance) return true;
-    return settings_.areaPx2 > 0.0 && toScreen_ && projectedArea(samples_, toScreen_) < settings_.areaPx2;
+    return settings_.areaPx2 > 0.0 && toScreen_ &&
+           projectedSize(samples_, toScreen_, settings_.stop) < settings_.areaPx2;
   }
 
   void step() {

@@ -22,6 +22,15 @@ constexpr EnumNames<GradientForm, 3> enumNames(GradientForm) {
             {GradientForm::Printed, "printed"}}}};
 }
 
+/// What of the projected triangle of samples ends the search by being small.
+enum class StopMeasure {
+  Area,        ///< its area (the thesis); small as well if the triangle is thin or seen edge-on
+  LongestSide  ///< half the square of its longest side
+};
+constexpr EnumNames<StopMeasure, 2> enumNames(StopMeasure) {
+  return {{{{StopMeasure::Area, "area"}, {StopMeasure::LongestSide, "longest_side"}}}};
+}
+
 /// Three first samples.
 enum class FirstGuess {
   Projections,   ///< radial projections of vertex and eye, and the third corner of an equilateral triangle
@@ -48,8 +57,9 @@ struct SolverSettings {
   GradientForm gradient = GradientForm::Corrected;
   FirstGuess guess = FirstGuess::Projections;
   Safeguard safeguard = Safeguard::Restart;
-  int cap = 20;                     ///< samples after the first three
-  double areaPx2 = 1.0;             ///< area of the projected triangle at which to stop; 0: not by area
+  int cap = 20;  ///< samples after the first three
+  StopMeasure stop = StopMeasure::Area;
+  double areaPx2 = 1.0;             ///< of the projected triangle, at which to stop; 0: not by size
   double gradientTolerance = 0.0;   ///< length of the gradient at which to stop; 0: not by gradient
   double determinantShare = 1e-12;  ///< least determinant over a^2 b^2; below it a sample is exchanged
   double leastSide = 0.05;          ///< of a first triangle, in radii

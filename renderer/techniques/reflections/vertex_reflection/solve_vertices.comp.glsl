@@ -5,11 +5,11 @@
 layout(local_size_x = kVertexGroup) in;
 layout(std430, binding = kReflectedPositionsBuffer) readonly buffer Positions { float positions[]; };
 layout(std430, binding = kReflectedVerticesBuffer) buffer Reflected { vec4 reflected[]; };
-uniform uint vertexCount;
+uniform uint firstVertex, endVertex;
 
 void main() {
-  const uint i = gl_WorkGroupID.y * (65535u * uint(kVertexGroup)) + gl_GlobalInvocationID.x;
-  if (i >= vertexCount) return;
+  const uint i = firstVertex + gl_WorkGroupID.y * (65535u * uint(kVertexGroup)) + gl_GlobalInvocationID.x;
+  if (i >= endVertex) return;
   const vec3 position = vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]);
   vec4 previous = vec4(0.0);
 #if GUESS == GUESS_PREVIOUS_FRAME

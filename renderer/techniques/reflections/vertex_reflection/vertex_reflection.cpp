@@ -2,7 +2,13 @@
 // Mirrors by reflection of vertices (Roger 2008, chapter 2): each vertex of the scene is moved to the point
 // of the reflector where the eye sees it, and triangles are drawn between these points.
 //
-// Departures from the thesis: the gradient is corrected (see secant_solver.cpp; the printed forms are
+// Departures from the thesis, whose own form stays a choice: the search starts from a triangle around the
+// eye's projection and ends by the longest side of the samples' triangle at 1e-4 px^2. The thesis' own start
+// (projections of vertex and eye) leads some 4 % of the searches to the reflector's far side, and its end (an
+// area of 1 px^2) stops where the triangle is merely thin or seen edge-on: near silhouettes the points are
+// then pixels off (experiments/descriptors/reflections/vertex_reflection_search.yaml).
+//
+// Others: the gradient is corrected (see secant_solver.cpp; the printed forms are
 // variants); vertices without a reflection are recognised and their triangles treated as `invalid` says;
 // searches that wander start again (`safeguard`); pixels of the reflector are told by their triangle instead
 // of a stencil bit, which does the same; PreviousFrame starts from a small triangle around the point found a
@@ -26,6 +32,7 @@ const std::string kVertexReflectionFolder = "renderer/techniques/reflections/ver
 constexpr const char* kSolvePass = "reflections/solve_vertices";
 constexpr const char* kBacksPass = "reflections/back_faces";
 constexpr const char* kDrawPass = "reflections/draw_reflected";
+constexpr int kMostGroups = 65535;  // in a dimension
 /// llvmpipe (Mesa 22.3) draws wrong triangles if one draw evaluates more vertices.
 constexpr int kReflectedPerSoftwareDraw = 65536;
 
@@ -46,7 +53,7 @@ class VertexReflection : public Technique {
     positions_.emplace(mesh_.positions);
     indices_.emplace(mesh_.triangles);
     sources_.emplace(mesh_.sources);
-    reflectors_ = makeReflectors(frame.scene(), settings_.map, mesh_.positions.size());
+    reflectors_ = makeReflectors(frame.scene(), settings_.map, mesh_);
     ranges_.clear();
     for (const Reflector& reflector : reflectors_) {
       ranges_.push_back(std::make_unique<frame::TriangleRanges>(1));
@@ -156,13 +163,21 @@ class VertexReflection : public Technique {
 
   void solve(frame::Frame& frame, const Reflector& reflector) {
     configureSecant(*solve_, frame, settings_.solver, reflector);
-    const auto count = static_cast<uint32_t>(mesh_.positions.size());
-    solve_->set("vertexCount", count);
     positions_->bindStorage(kReflectedPositionsBuffer);
     reflector.reflected.bindStorage(kReflectedVerticesBuffer);
-    const auto groups = static_cast<int>((count + kVertexGroup - 1) / kVertexGroup);
-    solve_->dispatch({std::min(groups, 65535) * kVertexGroup, (groups + 65534) / 65535}, {kVertexGroup, 1});
+    const auto [ownFirst, ownCount] = reflector.ownVertices;
+    solveRange(0, ownFirst);
+    solveRange(ownFirst + ownCount, static_cast<uint32_t>(mesh_.positions.size()));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void solveRange(uint32_t from, uint32_t to) const {
+    if (from >= to) return;
+    solve_->set("firstVertex", from);
+    solve_->set("endVertex", to);
+    const auto groups = static_cast<int>((to - from + kVertexGroup - 1) / kVertexGroup);
+    solve_->dispatch({std::min(groups, kMostGroups) * kVertexGroup, (groups + kMostGroups - 1) / kMostGroups},
+                     {kVertexGroup, 1});
   }
 
   void solveVertices(frame::Frame& frame) {

@@ -61,10 +61,11 @@ struct ReflectorMapSettings {
 
 struct SecantSettings {
   reflections::GradientForm gradient = reflections::GradientForm::Corrected;
-  reflections::FirstGuess guess = reflections::FirstGuess::Projections;
+  reflections::FirstGuess guess = reflections::FirstGuess::TowardsEye;
   reflections::Safeguard safeguard = reflections::Safeguard::Restart;
   int cap = 20;
-  double stopAreaPx2 = 1.0;
+  reflections::StopMeasure stop = reflections::StopMeasure::LongestSide;
+  double stopAreaPx2 = 1e-4;
   double determinantShare = 1e-12;
   double leastSide = 0.05;
   double falseRootLength = 1e-3;
