@@ -153,7 +153,8 @@ void addShape(Scene& scene, const MirrorShapesSettings& settings) {
                         }),
             material);
   } else if (const auto* open = std::get_if<BowlMirror>(&settings.mirror)) {
-    addPart(scene, bowl(centre + glm::dvec3(0.0, 0.2, 0.0), 2.0 * kMirrorRadius, open->openingDeg, cells / 2),
+    addPart(scene,
+            bowl({0.0, 2.0 * kMirrorRadius + 0.05, 0.0}, 2.0 * kMirrorRadius, open->openingDeg, cells / 2),
             material);
   } else if (std::holds_alternative<EllipsoidMirror>(settings.mirror)) {
     addPart(scene, movedSphere(cells, [&](glm::dvec3 u) { return centre + glm::dvec3(0.6, 0.4, 0.5) * u; }),

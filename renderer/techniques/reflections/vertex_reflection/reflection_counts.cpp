@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/reflections/vertex_reflection/extremum.h"
 
 namespace limen::techniques {
 namespace {
@@ -86,6 +87,10 @@ void ReflectionStatistics::add(const Reflector& reflector, const reflections::Re
     const auto where = placeOf(point + centre - anchor, frame),
                right = placeOf(exact.point + centre - anchor, frame);
     if (!where || !right) continue;
+    // Facets are flat: over steps of a facet or more the surface is what they stand for.
+    const double facet = std::sqrt(4.0 * std::numbers::pi / std::max(1U, reflector.triangles.count));
+    const auto kind = reflections::extremumAt(surface, glm::normalize(exact.point), eye, vertex, facet);
+    ++extrema_[static_cast<size_t>(kind)];
     angles_.push_back(glm::degrees(angleAt(point)));
     distances_.push_back(glm::length(*where - *right));
   }
@@ -116,6 +121,9 @@ std::vector<Counter> ReflectionStatistics::counters() const {
       {"screen_error_median_px", quantile(distances_, 0.5)},
       {"screen_error_p95_px", quantile(distances_, 0.95)},
       {"true_points", double(angles_.size())},
+      {"true_points_minimum", double(extrema_[0])},
+      {"true_points_maximum", double(extrema_[1])},
+      {"true_points_between", double(extrema_[2])},
       {"vertices_tessellated", double(tessellated_.evaluated)},
       {"tessellated_iterations_mean", shareOf(tessellated_.iterations, tessellated_.evaluated)}};
   return out;
@@ -144,6 +152,9 @@ std::vector<Quantity> ReflectionStatistics::quantities() {
       {"screen_error_median_px", "Median distance to the true reflection point", "px", kLower},
       {"screen_error_p95_px", "95th percentile of the distance to the true reflection point", "px", kLower},
       {"true_points", "Vertices whose true reflection point was found", "", kNeither},
+      {"true_points_minimum", "True points that are minima of the path (near zone)", "", kNeither},
+      {"true_points_maximum", "True points that are maxima of the path (far zone)", "", kNeither},
+      {"true_points_between", "True points that are neither (zone between)", "", kNeither},
       {"vertices_tessellated", "Vertices that the tessellator made", "", kNeither},
       {"tessellated_iterations_mean", "Mean iterations of vertices that the tessellator made", "", kLower}};
 }

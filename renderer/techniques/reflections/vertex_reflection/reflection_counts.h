@@ -29,6 +29,7 @@ class ReflectionStatistics {
   std::array<int64_t, 5> outcomes_{};
   int64_t exchanges_ = 0, restarts_ = 0, atCap_ = 0;
   std::array<int64_t, 4> triangles_{};
+  std::array<int64_t, 3> extrema_{};  // by reflections::Extremum
   std::vector<double> angles_, distances_;
   ReflectionCounts tessellated_{};
 };

@@ -168,8 +168,8 @@ vec4 reflectedVertex(vec3 position, vec4 previous) {
   uint iterations = 0u, exchanges = 0u, flags = 0u;
   bool converged = false;
   vec3 first, second, third;
-#if GUESS == GUESS_TOWARDS_EYE
-  triangleAround(unitOr(solverEye, vec3(0.0, 0.0, 1.0)), 10.0 * leastSide, first, second, third);
+#if GUESS == GUESS_FACING_EYE
+  triangleAround(unitOr(mirrorSide * solverEye, vec3(0.0, 0.0, 1.0)), 10.0 * leastSide, first, second, third);
 #else
   projections(vertex, first, second, third);
 #endif
@@ -179,9 +179,9 @@ vec4 reflectedVertex(vec3 position, vec4 previous) {
 #endif
   PathSample found = secant(vertex, first, second, third, iterations, exchanges, converged);
   uint outcome = outcomeOf(found, vertex, converged);
-#if SAFEGUARD == SAFEGUARD_RESTART && GUESS != GUESS_TOWARDS_EYE
+#if SAFEGUARD == SAFEGUARD_RESTART && GUESS != GUESS_FACING_EYE
   if (outcome != kOutcomeFound && outcome != kOutcomeFalseRoot) {
-    triangleAround(unitOr(solverEye, vec3(0.0, 0.0, 1.0)), 10.0 * leastSide, first, second, third);
+    triangleAround(unitOr(mirrorSide * solverEye, vec3(0.0, 0.0, 1.0)), 10.0 * leastSide, first, second, third);
     const PathSample other = secant(vertex, first, second, third, iterations, exchanges, converged);
     const uint otherOutcome = outcomeOf(other, vertex, converged);
     if (otherOutcome <= outcome) {

@@ -72,8 +72,13 @@ double projectedSize(const Triple& samples, const ToScreen& toScreen, StopMeasur
 class Solver {
  public:
   Solver(const StarSurface& surface, glm::dvec3 eye, glm::dvec3 vertex, const SolverSettings& settings,
-         const ToScreen& toScreen)
-      : surface_(surface), eye_(eye), vertex_(vertex), settings_(settings), toScreen_(toScreen) {}
+         const ToScreen& toScreen, bool inside)
+      : surface_(surface),
+        eye_(eye),
+        vertex_(vertex),
+        settings_(settings),
+        toScreen_(toScreen),
+        inside_(inside) {}
 
   Reflection run(std::optional<glm::dvec3> previous) {
     begin(firstDirections(previous));
@@ -92,8 +97,8 @@ class Solver {
   std::array<glm::dvec3, 3> firstDirections(std::optional<glm::dvec3> previous) const {
     if (settings_.guess == FirstGuess::PreviousFrame && previous && glm::length(*previous) > 0.0)
       return triangleAround(glm::normalize(*previous), settings_.leastSide);
-    if (settings_.guess == FirstGuess::TowardsEye)
-      return triangleAround(unitOr(eye_, {0.0, 0.0, 1.0}), 10.0 * settings_.leastSide);
+    if (settings_.guess == FirstGuess::FacingEye)
+      return triangleAround(unitOr(inside_ ? -eye_ : eye_, {0.0, 0.0, 1.0}), 10.0 * settings_.leastSide);
     return projections(eye_, vertex_, settings_.leastSide);
   }
 
@@ -156,6 +161,7 @@ class Solver {
   glm::dvec3 eye_, vertex_;
   const SolverSettings& settings_;
   const ToScreen& toScreen_;
+  bool inside_;
   Reflection out_;
   Triple samples_;
   PathSample everBest_, found_;
@@ -194,7 +200,7 @@ Reflection reflectVertex(const StarSurface& surface, glm::dvec3 eye, glm::dvec3 
                          std::optional<glm::dvec3> previous, bool inside) {
   if (!finite(eye) || !finite(vertex)) return {};
   const auto solve = [&](const SolverSettings& by) {
-    Solver solver(surface, eye, vertex, by, toScreen);
+    Solver solver(surface, eye, vertex, by, toScreen, inside);
     Reflection out = solver.run(previous);
     const PathSample& found = solver.found();
     if (!std::isfinite(found.length)) return Reflection{.point = {}, .iterations = out.iterations};
@@ -208,11 +214,11 @@ Reflection reflectVertex(const StarSurface& surface, glm::dvec3 eye, glm::dvec3 
     return out;
   };
   Reflection first = solve(settings);
-  if (settings.safeguard != Safeguard::Restart || settings.guess == FirstGuess::TowardsEye ||
+  if (settings.safeguard != Safeguard::Restart || settings.guess == FirstGuess::FacingEye ||
       first.outcome == Outcome::Found || first.outcome == Outcome::FalseRoot)
     return first;
   SolverSettings again = settings;
-  again.guess = FirstGuess::TowardsEye;
+  again.guess = FirstGuess::FacingEye;
   Reflection second = solve(again);
   Reflection& better = second.outcome <= first.outcome ? second : first;
   better.iterations = first.iterations + second.iterations;

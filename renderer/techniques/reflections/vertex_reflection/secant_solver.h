@@ -34,12 +34,12 @@ constexpr EnumNames<StopMeasure, 2> enumNames(StopMeasure) {
 /// Three first samples.
 enum class FirstGuess {
   Projections,   ///< radial projections of vertex and eye, and the third corner of an equilateral triangle
-  TowardsEye,    ///< the same small triangle around the eye's projection, whatever the vertex
+  FacingEye,     ///< a triangle in the middle of the side that the eye sees, whatever the vertex
   PreviousFrame  ///< a small triangle around the point found before; Projections where there was none
 };
 constexpr EnumNames<FirstGuess, 3> enumNames(FirstGuess) {
   return {{{{FirstGuess::Projections, "projections"},
-            {FirstGuess::TowardsEye, "towards_eye"},
+            {FirstGuess::FacingEye, "facing_eye"},
             {FirstGuess::PreviousFrame, "previous_frame"}}}};
 }
 
@@ -47,7 +47,7 @@ constexpr EnumNames<FirstGuess, 3> enumNames(FirstGuess) {
 enum class Safeguard {
   None,      ///< the best of the last three samples (the thesis)
   KeepBest,  ///< the best sample ever seen
-  Restart    ///< once more from FirstGuess::TowardsEye where the cap is reached or the point found faces away
+  Restart    ///< once more from FirstGuess::FacingEye where the cap is reached or the point found faces away
 };
 constexpr EnumNames<Safeguard, 3> enumNames(Safeguard) {
   return {{{{Safeguard::None, "none"}, {Safeguard::KeepBest, "keep_best"}, {Safeguard::Restart, "restart"}}}};

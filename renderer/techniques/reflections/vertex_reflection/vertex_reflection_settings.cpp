@@ -51,7 +51,7 @@ const SettingsTable<SecantSettings>& SecantSettings::table() {
        "least_side",
        {1e-4, 1.0},
        "radii",
-       "Side of first triangles that would collapse; a tenth of that of towards_eye",
+       "Side of first triangles that would collapse; a tenth of that of facing_eye",
        "not given in Roger 2008"},
       {&S::falseRootLength,
        "false_root_length",

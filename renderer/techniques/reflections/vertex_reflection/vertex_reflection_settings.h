@@ -61,7 +61,7 @@ struct ReflectorMapSettings {
 
 struct SecantSettings {
   reflections::GradientForm gradient = reflections::GradientForm::Corrected;
-  reflections::FirstGuess guess = reflections::FirstGuess::TowardsEye;
+  reflections::FirstGuess guess = reflections::FirstGuess::FacingEye;
   reflections::Safeguard safeguard = reflections::Safeguard::Restart;
   int cap = 20;
   reflections::StopMeasure stop = reflections::StopMeasure::LongestSide;
