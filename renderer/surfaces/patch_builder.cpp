@@ -39,6 +39,16 @@ void append(PatchSet& to, const PatchSet& from) {
              normals = static_cast<uint32_t>(to.normals.size());
   const auto patches = static_cast<int32_t>(to.patches.size());
   const bool neighbours = to.neighbours.size() == to.patches.size() && !from.neighbours.empty();
+  if (!to.trimOf.empty() || !from.trimOf.empty()) {
+    const auto trims = static_cast<int32_t>(to.trims.size());
+    to.trimOf.resize(to.patches.size());
+    to.trims.insert(to.trims.end(), from.trims.begin(), from.trims.end());
+    for (PatchTrim trim : from.trimOf) {
+      if (trim.region >= 0) trim.region += trims;
+      to.trimOf.push_back(trim);
+    }
+    to.trimOf.resize(to.patches.size() + from.patches.size());
+  }
   to.points.insert(to.points.end(), from.points.begin(), from.points.end());
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   for (Patch patch : from.patches) {

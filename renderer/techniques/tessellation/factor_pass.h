@@ -71,6 +71,16 @@ struct ByDeviation {
   static const SettingsTable<ByDeviation>& table();
 };
 
+/// Factors from sizes on the screen, of the projected control points (section 7.4.1; SC-54). None of them
+/// bounds the deviation, and a flat patch gets as many segments as a curved one.
+struct BySize {
+  static constexpr const char *kKind = "size", *kSummary = "from sizes on the screen";
+  surfaces::CurveSize measure = surfaces::CurveSize::Rockwood;
+  double segmentPx = 8.0;
+  int most = 64;
+  static const SettingsTable<BySize>& table();
+};
+
 /// The same factor on all sides of all patches.
 struct BySegments {
   static constexpr const char *kKind = "uniform", *kSummary = "the same for all";
@@ -79,11 +89,12 @@ struct BySegments {
 };
 
 struct FactorSettings {
-  std::variant<ByDeviation, BySegments> factors;
+  std::variant<ByDeviation, BySegments, BySize> factors;
   bool cull = true;
   bool cornerFix = true;
   bool precompute = false;
   static const SettingsTable<FactorSettings>& table();
+  int mostSegments() const;  ///< that a side may get
 };
 
 /// Phases 1 and 2 of CudaTess (Schwarz 2009, section 7.6): factors of each patch, of common sides the larger

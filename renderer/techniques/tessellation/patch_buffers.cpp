@@ -62,12 +62,20 @@ gl::ShaderDefines definesOf(const surfaces::PatchSet& set) {
 
 }  // namespace
 
-PatchBuffers::PatchBuffers(const scene::Scene& scene, glm::dvec3 anchor)
+void requireUntrimmed(const scene::Scene& scene) {
+  if (!scene.surfaces.trims.empty())
+    throw Error("the scene has trimmed surfaces, which this technique would draw whole", "scene",
+                "use tessellation/compute or ray_casting/exact");
+}
+
+PatchBuffers::PatchBuffers(const scene::Scene& scene, glm::dvec3 anchor, bool drawsTrims)
     : count_(static_cast<uint32_t>(scene.surfaces.patches.size())),
       patches_(recordsOf(scene)),
       points_(pointsOf(scene.surfaces, anchor)),
       normals_(normalsOf(scene.surfaces)),
-      defines_(definesOf(scene.surfaces)) {}
+      defines_(definesOf(scene.surfaces)) {
+  if (!drawsTrims) requireUntrimmed(scene);
+}
 
 void PatchBuffers::bindStorage() const {
   patches_.bindStorage(kPatchesBuffer);

@@ -6,7 +6,9 @@
 
 #ifdef __cplusplus
 namespace limen::techniques {
+using glm::ivec2;
 using glm::ivec4;
+using glm::vec2;
 #endif
 
 const int kTessellationGroup = 64;
@@ -48,6 +50,17 @@ struct PatchBounds {  // std430
 };
 #ifdef __cplusplus
 static_assert(sizeof(PatchBounds) == 48 && offsetof(PatchBounds, finite) == 28);
+#endif
+
+// surfaces::PatchTrim.
+struct PatchTrimRecord {  // std430
+  vec2 low, high;
+  int region;  // -1: none
+  int unused0;
+  ivec2 unused1;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatchTrimRecord) == 32 && offsetof(PatchTrimRecord, region) == 16);
 #endif
 
 struct TessellatedVertex {  // std430
@@ -100,6 +113,8 @@ const uint kTotalsBuffer = 6u;
 const uint kVerticesBuffer = 7u;
 const uint kTriangleCountBuffer = 7u;
 const uint kIndicesBuffer = 3u;
+const uint kPatchTrimsBuffer = 3u;
+const uint kTrimPlacesBuffer = 7u;
 
 // Refinement patterns.
 const uint kPatternCountsBuffer = 5u;
@@ -112,6 +127,7 @@ const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
 const uint kSurfaceNormalsUnit = 1u;
+const uint kTrimsUnit = 0u;
 const uint kResolveIdsImage = 0u;
 const uint kResolveNormalsImage = 1u;
 const uint kResolveVerticesBuffer = 0u;

@@ -93,10 +93,7 @@ struct PatternSettings {
   }
   bool adapted() const { return patterns == PatternKind::Adapted || patterns == PatternKind::AdaptedInteger; }
   bool dyadic() const { return patterns == PatternKind::Adapted || patterns == PatternKind::Dyadic; }
-  int most() const {
-    const auto* deviation = std::get_if<ByDeviation>(&tessellation.factors);
-    return deviation ? deviation->most : std::get<BySegments>(tessellation.factors).segments;
-  }
+  int most() const { return tessellation.mostSegments(); }
   void check() const {
     if (draw == PatternDraw::MultiDraw && coarseFirst)
       throw Error("a single draw has no part of its own for coarse patches", "coarse_first",
