@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/surfaces/patch_builder.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace limen::surfaces {
@@ -49,6 +50,16 @@ void append(PatchSet& to, const PatchSet& from) {
     }
     to.trimOf.resize(to.patches.size() + from.patches.size());
   }
+  if (to.motion.moves() || from.motion.moves()) {
+    assert(!to.motion.moves() || !from.motion.moves() || to.motion.periodS == from.motion.periodS);
+    to.motion.periodS = std::max(to.motion.periodS, from.motion.periodS);
+    for (const auto member : {&PatchMotion::sine, &PatchMotion::cosine}) {
+      std::vector<glm::dvec3>& vectors = to.motion.*member;
+      vectors.resize(to.points.size());
+      vectors.insert(vectors.end(), (from.motion.*member).begin(), (from.motion.*member).end());
+      vectors.resize(to.points.size() + from.points.size());
+    }
+  }
   to.points.insert(to.points.end(), from.points.begin(), from.points.end());
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   for (Patch patch : from.patches) {
@@ -67,6 +78,8 @@ PatchSet transformed(PatchSet set, const glm::dmat4& map) {
   const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(map)));
   for (glm::dvec4& point : set.points) point = map * point;
   for (glm::dvec3& normal : set.normals) normal = turn * normal;
+  for (const auto member : {&PatchMotion::sine, &PatchMotion::cosine})
+    for (glm::dvec3& vector : set.motion.*member) vector = glm::dmat3(map) * vector;
   return set;
 }
 

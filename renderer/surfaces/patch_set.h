@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/surfaces/patch_motion.h"
 #include "renderer/surfaces/trim_region.h"
 
 namespace limen::surfaces {
@@ -67,6 +68,7 @@ struct PatchSet {
   std::vector<std::array<Neighbour, 4>> neighbours;  ///< one per patch; by side
   std::vector<TrimRegion> trims;
   std::vector<PatchTrim> trimOf;  ///< empty, or one per patch
+  PatchMotion motion;
 
   bool empty() const { return patches.empty(); }
 };

@@ -152,7 +152,7 @@ Mesh patchMesh(const surfaces::PatchSet& set, int factor, surfaces::NormalHistog
 void addSurface(Scene& scene, const std::string& name, surfaces::PatchSet set, int factor, glm::vec3 albedo) {
   surfaces::findNeighbours(set);
   for (surfaces::Patch& patch : set.patches) patch.part = static_cast<uint32_t>(scene.parts.size());
-  addPart(scene, name, patchMesh(set, factor), albedo);
+  addPart(scene, name, patchMesh(surfaces::movedTo(set, 0.0), factor), albedo);
   surfaces::append(scene.surfaces, set);
 }
 

@@ -15,8 +15,8 @@ namespace limen::scene {
 /// vertices by where their normals came from.
 Mesh patchMesh(const surfaces::PatchSet& set, int factor, surfaces::NormalHistogram* histogram = nullptr);
 
-/// Adds a part made of patches: to Scene::surfaces and, tessellated, to Scene::mesh. Neighbours of the set
-/// are found.
+/// Adds a part made of patches: to Scene::surfaces and, tessellated as at time 0, to Scene::mesh. Neighbours
+/// of the set are found.
 void addSurface(Scene& scene, const std::string& name, surfaces::PatchSet set, int factor, glm::vec3 albedo);
 
 }  // namespace limen::scene

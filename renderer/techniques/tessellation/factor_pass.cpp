@@ -120,11 +120,16 @@ FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const F
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
       bounds_((settings.precompute ? int64_t{patches.count()} : 1) * int64_t{sizeof(PatchBounds)}, nullptr) {
   requireBounds(frame.scene());
+  const bool moving = patches.motions() != nullptr;
+  if (moving)
+    moveProgram_ =
+        &frame.context().programs().compute("renderer/techniques/tessellation/move_points.comp.glsl");
   if (!settings.precompute) return;
   patches_.bindStorage();
+  if (moving) patches_.motions()->bindStorage(kPointMotionsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);
   dispatch(frame.context().programs().compute(
-      kFactors, with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS")));
+      kFactors, with(with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS"), "MOVING", moving)));
 }
 
 void FactorPass::requireBounds(const scene::Scene& scene) const {
@@ -188,7 +193,21 @@ int64_t FactorPass::countCapped(frame::Frame& frame) const {
   return out;
 }
 
+void FactorPass::movePoints(frame::Frame& frame) const {
+  const auto scope = frame.passes().open("tessellation/motion");
+  patches_.motions()->bindStorage(kPointMotionsBuffer);
+  moveProgram_->set("wave", glm::vec2(frame.scene().surfaces.motion.waveAt(frame.timeS())));
+  moveProgram_->set("pointCount", patches_.pointCount());
+  moveProgram_->use();
+  const uint32_t groups =
+      (patches_.pointCount() + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+  glDispatchCompute(groups, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void FactorPass::run(frame::Frame& frame) const {
+  patches_.bindStorage();
+  if (moveProgram_) movePoints(frame);
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);

@@ -104,7 +104,8 @@ class FactorPass {
   /// `lists`: triangles are counted, not indices of strips.
   FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
              bool lists = false, Spacing spacing = Spacing::Integer);
-  /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
+  /// Opens the passes tessellation/factors and tessellation/counts, and before them tessellation/motion,
+  /// which moves the control points, where surfaces move. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 
   /// Patches whose bound asks for more segments than a side may have, or of which no bound is known: those
@@ -122,10 +123,12 @@ class FactorPass {
   const PatchBuffers& patches_;
   FactorSettings settings_;
   void requireBounds(const scene::Scene& scene) const;
+  void movePoints(frame::Frame& frame) const;
   void dispatch(const gl::Program& program) const;
   void runFactors(frame::Frame& frame, const gl::Program& program) const;
 
   const gl::Program &factorsProgram_, &countsProgram_;
+  const gl::Program* moveProgram_ = nullptr;  // where surfaces move
   gl::Buffer own_, factors_, counts_, bounds_;
 };
 

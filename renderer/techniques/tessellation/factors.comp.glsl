@@ -156,6 +156,57 @@ float heaviest(int first, int count) {
   return out_;
 }
 
+#ifdef MOVING
+// Over a whole period: p + s a + c b with s^2 + c^2 = 1 is at most |p| + sqrt(|a|^2 + |b|^2), for points and for all
+// differences of them alike. The points themselves are those at rest.
+layout(std430, binding = kPointMotionsBuffer) readonly buffer Motions { PointMotion motions[]; };
+
+float sizeOfSum(ivec4 at, vec4 by, vec3 centre, float reach) {
+  vec4 rest = vec4(0.0);
+  vec3 a = vec3(0.0), b = vec3(0.0);
+  for (int k = 0; k < 4; ++k) {
+    const PointMotion motion = motions[at[k]];
+    rest += by[k] * vec4(motion.rest.xyz - motion.rest.w * centre, motion.rest.w);
+    a += by[k] * motion.sine.xyz;
+    b += by[k] * motion.cosine.xyz;
+  }
+  return size4(rest, reach) + sqrt(dot(a, a) + dot(b, b));
+}
+
+PatchBounds movingBounds(int first, uint shape) {
+  const int m = degreeU(shape), n = degreeV(shape), count = pointCount(shape);
+  PatchBounds out_ = boxOf(first, count);
+  if (out_.finite == 0u) return out_;
+  for (int i = 0; i < count; ++i) {
+    const PointMotion motion = motions[first + i];
+    const vec3 p = projected(motion.rest), a = motion.sine.xyz / motion.rest.w, b = motion.cosine.xyz / motion.rest.w;
+    const vec3 away = sqrt(a * a + b * b);
+    out_.low = min(out_.low, p - away);
+    out_.high = max(out_.high, p + away);
+  }
+  const vec3 centre = 0.5 * (out_.low + out_.high);
+  float reach = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const PointMotion motion = motions[first + i];
+    const vec3 a = motion.sine.xyz / motion.rest.w, b = motion.cosine.xyz / motion.rest.w;
+    reach = max(reach, length(projected(motion.rest) - centre) + sqrt(dot(a, a) + dot(b, b)));
+  }
+  const vec4 bend = vec4(1.0, -2.0, 1.0, 0.0), twist = vec4(1.0, -1.0, -1.0, 1.0);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= m; ++i) {
+      const int at = first + i + (m + 1) * j, row = m + 1;
+      if (i + 2 <= m)
+        out_.second.x = max(out_.second.x, sizeOfSum(ivec4(at, at + 1, at + 2, at), bend, centre, reach));
+      if (i + 1 <= m && j + 1 <= n)
+        out_.second.y = max(out_.second.y, sizeOfSum(ivec4(at, at + 1, at + row, at + row + 1), twist, centre, reach));
+      if (j + 2 <= n)
+        out_.second.z = max(out_.second.z, sizeOfSum(ivec4(at, at + row, at + 2 * row, at), bend, centre, reach));
+    }
+  out_.second *= vec3(float(m * (m - 1)), float(m * n), float(n * (n - 1)));
+  return out_;
+}
+#endif
+
 vec3 secondBounds(int first, uint shape, PatchBounds box, float eps) {
   if (isRectangle(shape)) return rectangleBounds(first, shape, 0.5 * (box.low + box.high), eps);
   // So large that any tolerance takes all segments.
@@ -306,7 +357,9 @@ void main() {
   const TessellatedPatch patch_ = patches[number];
   const uint shape = shapeOf(patch_);
   const int first = int(patch_.firstPoint);
-#ifdef MAKE_BOUNDS
+#if defined(MAKE_BOUNDS) && defined(MOVING)
+  bounds[number] = movingBounds(first, shape);
+#elif defined(MAKE_BOUNDS)
   PatchBounds made = boxOf(first, pointCount(shape));
   if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
   bounds[number] = made;

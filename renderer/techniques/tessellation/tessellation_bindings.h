@@ -9,6 +9,7 @@ namespace limen::techniques {
 using glm::ivec2;
 using glm::ivec4;
 using glm::vec2;
+using glm::vec4;
 #endif
 
 const int kTessellationGroup = 64;
@@ -51,6 +52,11 @@ struct PatchBounds {  // std430
 #ifdef __cplusplus
 static_assert(sizeof(PatchBounds) == 48 && offsetof(PatchBounds, finite) == 28);
 #endif
+
+// Of a control point: its place and how it moves (surfaces::PatchMotion), homogeneous.
+struct PointMotion {  // std430
+  vec4 rest, sine, cosine;
+};
 
 // surfaces::PatchTrim.
 struct PatchTrimRecord {  // std430
@@ -104,6 +110,7 @@ static_assert(sizeof(PatternCommand) == 20);
 const uint kPatchesBuffer = 0u;
 const uint kPatchPointsBuffer = 1u;
 const uint kPatchNormalsBuffer = 2u;
+const uint kPointMotionsBuffer = 2u;
 const uint kOwnFactorsBuffer = 3u;  // of each patch four times 16 bits, in 1 / kSegmentUnit; 0: culled
 const uint kFactorsBuffer = 4u;     // PatchFactors
 const uint kPatchBoundsBuffer = 5u;

@@ -52,10 +52,8 @@ class ExactRays : public Technique {
       if (!(p.w > 0.0))
         throw Error("the scene has a control point whose weight is not positive", "scene",
                     "exact ray casting relies on the hulls of control points");
-    const surfaces::PatchSet& set = frame.scene().surfaces;
-    const auto* texture = std::get_if<TrimByTexture>(&settings_.trims);
-    tracer_.emplace(set, settings_.roots,
-                    texture ? surfaces::TrimTest(set, texture->mask()) : surfaces::TrimTest(set));
+    set_ = surfaces::movedTo(frame.scene().surfaces, frame.timeS());
+    makeTracer();
     const std::string folder = "renderer/techniques/ray_casting/exact/";
     program_ = &frame.context().programs().get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
     picture_.emplace(frame, settings_.shading, "ray_casting");
@@ -66,7 +64,11 @@ class ExactRays : public Technique {
 
   void render(frame::Frame& frame) override {
     const scene::Scene& scene = frame.scene();
-    exact_ = exactView(scene.surfaces, *tracer_, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
+    if (scene.surfaces.motion.moves()) {
+      set_ = surfaces::movedTo(scene.surfaces, frame.timeS());
+      makeTracer();
+    }
+    exact_ = exactView(set_, *tracer_, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
     std::vector<uint32_t> ids;
     Image normals(frame.sizePx().x, frame.sizePx().y, 4);
     for (size_t i = 0; i < exact_.pixels.size(); ++i) {
@@ -120,7 +122,14 @@ class ExactRays : public Technique {
   }
 
  private:
+  void makeTracer() {
+    const auto* texture = std::get_if<TrimByTexture>(&settings_.trims);
+    tracer_.emplace(set_, settings_.roots,
+                    texture ? surfaces::TrimTest(set_, texture->mask()) : surfaces::TrimTest(set_));
+  }
+
   Settings settings_;
+  surfaces::PatchSet set_;  // at the frame's time
   std::optional<surfaces::PatchTracer> tracer_;
   std::optional<SurfacePicture> picture_;
   std::optional<gl::Texture> ids_, normals_;

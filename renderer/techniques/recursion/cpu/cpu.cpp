@@ -53,7 +53,7 @@ class CpuRecursion : public Technique {
   explicit CpuRecursion(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    requireUntrimmed(frame.scene());
+    requireDrawn(frame.scene());
     picture_.emplace(frame, settings_.shading, "recursion");
     drawProgram_ =
         &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",

@@ -49,7 +49,8 @@ class ComputeTessellation : public Technique {
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
     const bool trimmed = !frame.scene().surfaces.trims.empty();
-    patches_.emplace(frame.scene(), frame.gpuScene().anchor(), true);
+    patches_.emplace(frame.scene(), frame.gpuScene().anchor(),
+                     DrawnSurfaces{.trimmed = true, .moving = true});
     if (trimmed) requireDriver();
     requireRectangles(frame.scene());
     requireInvocations();
@@ -151,6 +152,9 @@ class ComputeTessellation : public Technique {
     auto out = std::make_shared<surfaces::TessellatedSurface>();
     out->anchor = frame.gpuScene().anchor();
     out->view = viewOf(frame);
+    if (frame.scene().surfaces.motion.moves())
+      out->moved =
+          std::make_shared<surfaces::PatchSet>(surfaces::movedTo(frame.scene().surfaces, frame.timeS()));
     for (const TessellatedVertex& vertex : readVertices(frame, totals)) {
       out->positions.push_back(vertex.position);
       out->normals.push_back(vertex.normal);

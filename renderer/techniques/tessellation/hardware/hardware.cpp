@@ -49,7 +49,7 @@ class HardwareTessellation : public Technique {
   }
 
   void prepare(frame::Frame& frame) override {
-    patches_.emplace(frame.scene(), frame.gpuScene().anchor());
+    patches_.emplace(frame.scene(), frame.gpuScene().anchor(), DrawnSurfaces{.moving = true});
     factors_.emplace(frame, *patches_, settings_.tessellation);
     picture_.emplace(frame, settings_.shading, "tessellation");
     std::vector<uint32_t> numbers;
