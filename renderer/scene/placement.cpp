@@ -33,6 +33,8 @@ void mapWorld(Scene& scene, Map map) {
     point = glm::dvec4(point.w == 0.0 ? map(glm::dvec3(point)) - map(glm::dvec3(0.0))
                                       : map(glm::dvec3(point) / point.w) * point.w,
                        point.w);
+  for (const auto member : {&surfaces::PatchMotion::sine, &surfaces::PatchMotion::cosine})
+    for (glm::dvec3& vector : scene.surfaces.motion.*member) vector = map(vector) - map(glm::dvec3(0.0));
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);

@@ -67,6 +67,12 @@ void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
   for (const auto& sides : set.neighbours)
     for (const surfaces::Neighbour& side : sides)
       out.value(side.patch), out.value(side.side), out.value(static_cast<uint8_t>(side.reversed));
+  for (const surfaces::TrimRegion& region : set.trims)
+    for (const std::vector<glm::dvec2>& loop : region.loops) out.text("trim"), out.outline(loop);
+  for (const surfaces::PatchTrim& trim : set.trimOf)
+    out.value(trim.region), out.vector(trim.low), out.vector(trim.high);
+  if (set.motion.moves())
+    out.value(set.motion.periodS), out.array(set.motion.sine), out.array(set.motion.cosine);
 }
 
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
@@ -178,6 +184,8 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
+  if (surfaces.motion.moves()) out.insert("moving_surfaces");
+  if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];

@@ -160,7 +160,8 @@ struct Scene {
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
-  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces"; of its
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
+  /// "trimmed_surfaces", "moving_surfaces"; of its
   /// parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };

@@ -24,6 +24,8 @@ struct NurbsSolid {
   surfaces::PatchSet patches;
   glm::vec3 albedo;
 };
+/// What the scene curved/trimmed shows: a sheet with two rings of holes, a ball and a vase with windows.
+std::vector<NurbsSolid> trimmedSolids();
 /// What the scene curved/nurbs_solids shows.
 std::vector<NurbsSolid> nurbsSolids();
 
