@@ -16,9 +16,11 @@ uniform float depthScale, normalScale, lightnessScale, leastRange, edgeShare;
 uniform float nearest;  // distance that window depths are relative to
 
 const int kSamples = WINDOW * WINDOW;
-const ivec2 kOrder[kSamples] = ivec2[](ORDER);
 const uint kNothing = 0xffffffffu;
 #include "renderer/techniques/antialiasing/window_metrics.glsl"
+
+// Places in a window row by row, as neighbours often see the same triangle.
+ivec2 windowPlace(int i) { return ivec2(i % WINDOW, i / WINDOW); }
 
 float depthInTerms(float depth, float first) {
 #if DEPTH_TERMS == DEPTH_TERMS_LINEAR
@@ -38,53 +40,57 @@ float geometryCount(ivec2 pixel) {
   uint ids[kSamples];
   bool oneTriangle = true, background = false, surface = false;
   for (int i = 0; i < kSamples; ++i) {
-    ids[i] = texelFetch(sampleIds, WINDOW * pixel + kOrder[i], 0).x;
+    ids[i] = texelFetch(sampleIds, WINDOW * pixel + windowPlace(i), 0).x;
     if (ids[i] == kNothing) background = true; else surface = true;
     if (ids[i] != ids[0]) oneTriangle = false;
   }
   if (!surface) return 0.0;
   if (background) return float(kSamples - 1);
+#if defined(FLAT_TRIANGLES) && !defined(MEASURE_DEPTH)
+  if (oneTriangle) return 0.0;
+#endif
   float firstDepth = 1.0;
+  float depths[kSamples];
+  vec3 normals[kSamples];
 #ifdef FLAT_TRIANGLES
-  // Neither turns nor bends within a pixel: only its depths differ.
-  if (oneTriangle) {
-#ifdef MEASURE_DEPTH
-    const uvec3 vertices = sceneTriangle(ids[0]);
-    const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
-    const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
-    const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
-    for (int i = 0; i < kSamples; ++i) {
-      const float depth = pointSeen(a, b, c, pixelRay(WINDOW * pixel + kOrder[i], rayScale, sizePx)).depth;
-      if (i == 0) firstDepth = depth;
-      windowDepths[i] = depthInTerms(depth, firstDepth);
+  vec3 a, b, c, plane, normal;
+  for (int i = 0; i < kSamples; ++i) {
+    if (i == 0 || ids[i] != ids[i - 1]) {
+      const uvec3 vertices = sceneTriangle(ids[i]);
+      a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
+      b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
+      c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
+      plane = planeNormal(a, b, c);
+      // One triangle's own normal does not matter.
+      normal = vec3(0.0, 0.0, 1.0);
+      if (!oneTriangle) {
+        SeenPoint seen;
+        normal = surfaceSeen(WINDOW * pixel + windowPlace(i), ids[i], seen).normal;
+      }
     }
-#if GEOMETRY == GEOMETRY_MIN_MAX_DEPTH
-    return depthScale * depthRange();
-#else
-    return depthScale * depthVariance();
-#endif
-#else
-    return 0.0;
-#endif
+    const float depth = depthSeen(a, b, c, plane, pixelRay(WINDOW * pixel + windowPlace(i), rayScale, sizePx));
+    if (i == 0) firstDepth = depth;
+    depths[i] = depthInTerms(depth, firstDepth);
+    normals[i] = normal;
   }
-#endif
+#else
   for (int i = 0; i < kSamples; ++i) {
     SeenPoint seen;
-    const SurfacePoint point = surfaceSeen(WINDOW * pixel + kOrder[i], ids[i], seen);
+    normals[i] = surfaceSeen(WINDOW * pixel + windowPlace(i), ids[i], seen).normal;
     if (i == 0) firstDepth = seen.depth;
-    windowDepths[i] = depthInTerms(seen.depth, firstDepth);
-    windowNormals[i] = point.normal;
+    depths[i] = depthInTerms(seen.depth, firstDepth);
   }
+#endif
 #if GEOMETRY == GEOMETRY_MIN_MAX_DEPTH
-  return depthScale * depthRange();
+  return depthScale * depthRange(depths);
 #elif GEOMETRY == GEOMETRY_NORMAL_CONE
-  return normalScale * normalCone();
+  return normalScale * normalCone(normals);
 #elif GEOMETRY == GEOMETRY_DEPTH_VARIANCE
-  return depthScale * depthVariance();
+  return depthScale * depthVariance(depths);
 #elif GEOMETRY == GEOMETRY_NORMAL_VARIANCE
-  return normalScale * normalVariance();
+  return normalScale * normalVariance(normals);
 #else
-  return max(normalScale * normalCone(), depthScale * depthVariance());
+  return max(normalScale * normalCone(normals), depthScale * depthVariance(depths));
 #endif
 #endif
 }
@@ -115,7 +121,8 @@ uint furtherSamples(float asked) { return asked > 0.0 ? uint(min(asked + 0.5, fl
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, pictureSizePx))) return;
-  uint count = 1u + max(furtherSamples(geometryCount(pixel)), furtherSamples(lightnessCount(pixel)));
+  uint count = 1u + furtherSamples(lightnessCount(pixel));
+  if (count < uint(kSamples)) count = max(count, 1u + furtherSamples(geometryCount(pixel)));
 #ifdef POWERS_OF_TWO
   uint rounded = 1u;
   while (rounded < count) rounded *= 2u;

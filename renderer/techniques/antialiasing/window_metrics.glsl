@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many further samples the geometry in a pixel's window asks for, before scaling (Holländer 2013, section 4.3.1).
-// The including shader defines kSamples and fills the window. METRIC_FORM_PRINTED: as the thesis prints the formulas;
+// The including shader defines kSamples; normals are unit vectors. METRIC_FORM_PRINTED: as the thesis prints the formulas;
 // otherwise in forms that do not lose their digits to cancellation.
 
-float windowDepths[kSamples];
-vec3 windowNormals[kSamples];  // unit
-
-// Share of the window's mean normal; the first normal where they cancel each other.
-vec3 meanNormal() {
+// Direction of the mean normal; the first normal where they cancel each other.
+vec3 meanNormal(vec3 normals[kSamples]) {
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < kSamples; ++i) sum += windowNormals[i];
+  for (int i = 0; i < kSamples; ++i) sum += normals[i];
 #if METRIC_FORM == METRIC_FORM_PRINTED
   return normalize(sum);
 #else
-  return dot(sum, sum) > 1e-6 ? normalize(sum) : windowNormals[0];
+  return dot(sum, sum) > 1e-6 ? normalize(sum) : normals[0];
 #endif
 }
 
@@ -28,48 +25,48 @@ float oneMinusCosine(vec3 a, vec3 b) {
 }
 
 // MM: depth range.
-float depthRange() {
-  float nearest = windowDepths[0], farthest = windowDepths[0];
+float depthRange(float depths[kSamples]) {
+  float nearest = depths[0], farthest = depths[0];
   for (int i = 1; i < kSamples; ++i) {
-    nearest = min(nearest, windowDepths[i]);
-    farthest = max(farthest, windowDepths[i]);
+    nearest = min(nearest, depths[i]);
+    farthest = max(farthest, depths[i]);
   }
   return farthest - nearest;
 }
 
 // NC: opening of the cone of normals around their mean, whichever side they face.
-float normalCone() {
-  const vec3 mean = meanNormal();
+float normalCone(vec3 normals[kSamples]) {
+  const vec3 mean = meanNormal(normals);
 #if METRIC_FORM == METRIC_FORM_PRINTED
   float least = 1.0;
-  for (int i = 0; i < kSamples; ++i) least = min(least, abs(dot(mean, windowNormals[i])));
+  for (int i = 0; i < kSamples; ++i) least = min(least, abs(dot(mean, normals[i])));
   return sqrt(1.0 - least);
 #else
   float widest = 0.0;
   for (int i = 0; i < kSamples; ++i)
-    widest = max(widest, min(oneMinusCosine(mean, windowNormals[i]), oneMinusCosine(-mean, windowNormals[i])));
+    widest = max(widest, min(oneMinusCosine(mean, normals[i]), oneMinusCosine(-mean, normals[i])));
   return sqrt(widest);
 #endif
 }
 
 // DV: variance of depths.
-float depthVariance() {
+float depthVariance(float depths[kSamples]) {
 #if METRIC_FORM == METRIC_FORM_PRINTED
   precise float sum = 0.0, squares = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    sum += windowDepths[i];
-    squares += windowDepths[i] * windowDepths[i];
+    sum += depths[i];
+    squares += depths[i] * depths[i];
   }
   const float mean = sum / float(kSamples);
   return squares / float(kSamples) - mean * mean;
 #else
   // About the first depth, then about the mean of what is left.
   float sum = 0.0;
-  for (int i = 1; i < kSamples; ++i) sum += windowDepths[i] - windowDepths[0];
+  for (int i = 1; i < kSamples; ++i) sum += depths[i] - depths[0];
   const float mean = sum / float(kSamples);
   float squares = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    const float deviation = (windowDepths[i] - windowDepths[0]) - mean;
+    const float deviation = (depths[i] - depths[0]) - mean;
     squares += deviation * deviation;
   }
   return squares / float(kSamples);
@@ -77,11 +74,11 @@ float depthVariance() {
 }
 
 // NV: sum of squared deviations from the mean normal.
-float normalVariance() {
-  const vec3 mean = meanNormal();
+float normalVariance(vec3 normals[kSamples]) {
+  const vec3 mean = meanNormal(normals);
   float sum = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    const float deviation = oneMinusCosine(windowNormals[i], mean);
+    const float deviation = oneMinusCosine(normals[i], mean);
     sum += deviation * deviation;
   }
   return sum;
