@@ -259,6 +259,7 @@ class GlExecutor : public Executor {
                                             reference.get(),
                                             evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
                                             &metricGpu_};
+      if (!on.view->mirrors.data.empty()) evaluated.mirrors = &on.view->mirrors;
       evaluated.depicts = depicts(run.info->product);
       if (const ShownSurfaces* surfaces = surfacesFor(plan, on)) evaluated.surfaces = &surfaces->textures();
       const perception::PathRenderer path = [&](const perception::PathRequest& request,
