@@ -110,6 +110,9 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
   if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
+  if (scene.items)
+    out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
+        out.value(scene.items->buckets);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -178,6 +181,7 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
+  if (items) out.insert("item_stream");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];
