@@ -244,10 +244,10 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      const Reference found = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on, run.technique->product().sizePx());
       reference = found.image;
       if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
-      referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
+      referenceTexture.emplace(run.technique->product().format(), run.technique->product().sizePx());
       referenceTexture->write(*reference);
     }
     MetricPictures shown;
@@ -353,8 +353,9 @@ class GlExecutor : public Executor {
             {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
   }
 
-  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
-    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y, [&] {
+  /// `sizePx` of the product: a picture's, or what a stream takes.
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on, glm::ivec2 sizePx) {
+    return references_.get(sha256(referenceIdentity(run, on).dump()), sizePx.x, sizePx.y, [&] {
       RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
       return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
     });
