@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of reflections/vertex_reflection beside those of rays.
+#include "renderer/frame/mirror_rays.h"
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+const std::string kVertices = "reflections/vertex_reflection", kRays = "reflections/ray_traced";
+
+class VertexReflectionPicture : public TechniqueTest {
+ protected:
+  static constexpr glm::ivec2 kSize{160, 120};
+
+  static Given evenly(int64_t segments, Given more = {}) {
+    more["tessellation"] = std::string("even");
+    more["tessellation.segments"] = segments;
+    if (!more.count("invalid")) more["invalid"] = std::string("drop");
+    return more;
+  }
+
+  /// Share of all pixels whose largest channel differs by more than `threshold`.
+  static double shareOff(const Image& a, const Image& b, double threshold = 0.05) {
+    int off = 0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        double most = 0.0;
+        for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(double(a.at(x, y, c)) - b.at(x, y, c)));
+        if (!(most <= threshold)) ++off;
+      }
+    return double(off) / (a.width * a.height);
+  }
+
+  static Image picture(const scene::Scene& scene, const std::string& technique, const Given& given = {}) {
+    return render(scene, technique, given, kSize).product;
+  }
+};
+
+/// The mirror covers a sixth of the picture (its outline: a circle of 48 px across). Within it, edges between
+/// cells of the floor and outlines of objects are a few hundred pixels long; those may take the other side.
+/// That is under 2 % of the picture. A picture without reflections is off in most of the mirror's lower half.
+TEST_F(VertexReflectionPicture, AgreesWithRaysOnABall) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{64}}});
+  const Image rays = picture(scene, kRays);
+  EXPECT_LT(shareOff(picture(scene, kVertices, evenly(8)), rays), 0.02);
+  EXPECT_LT(shareOff(picture(scene, kVertices), rays), 0.02);
+  // The thesis' end of the search is seen to be too early.
+  const Given thesis = evenly(8, {{"solver.guess", std::string("projections")},
+                                  {"solver.stop", std::string("area")},
+                                  {"solver.stop_area_px2", 1.0},
+                                  {"solver.safeguard", std::string("none")}});
+  EXPECT_GT(shareOff(picture(scene, kVertices, thesis), rays), 0.02);
+}
+
+TEST_F(VertexReflectionPicture, AgreesWithRaysOnAnEllipsoidAndInTwoParts) {
+  for (const char* mirror : {"ellipsoid", "two_spheres"}) {
+    const scene::Scene scene =
+        makeScene("mirrors/shapes", {{"mirror", std::string(mirror)}, {"objects", int64_t{6}}});
+    EXPECT_LT(shareOff(picture(scene, kVertices), picture(scene, kRays)), 0.02) << mirror;
+  }
+}
+
+/// Compute and vertex shader run the same search; compilers may round differently.
+TEST_F(VertexReflectionPicture, IsTheSameWhereverVerticesAreSolved) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{24}}});
+  const Image before = picture(scene, kVertices, evenly(4));
+  const Image within = picture(scene, kVertices, evenly(4, {{"placement", std::string("vertex_shader")}}));
+  EXPECT_LT(shareOff(before, within, 1e-4), 0.002);
+}
+
+/// The map as an image, read by the GPU's own filtering: both layouts know the same surface. Texels of 1/128
+/// of a face are 1 / 80 rad apart; of an ellipsoid's radius the second difference over that is 1e-4.
+TEST_F(VertexReflectionPicture, LayoutsOfTheMapAgree) {
+  const scene::Scene scene =
+      makeScene("mirrors/shapes", {{"mirror", std::string("ellipsoid")}, {"objects", int64_t{6}}});
+  const Image cube = picture(scene, kVertices);
+  const Image angles =
+      picture(scene, kVertices, {{"map.layout", std::string("lat_long")}, {"map.resolution", int64_t{256}}});
+  EXPECT_LT(shareOff(cube, angles), 0.02);
+}
+
+/// A highlight is where the mirror sees it, not where the eye would.
+TEST_F(VertexReflectionPicture, HighlightsAreThoseThatTheMirrorSees) {
+  scene::Scene scene = makeScene("mirrors/shapes", {{"objects", int64_t{0}}});
+  const Given shiny = {{"shading.specular", 2.0}, {"shading.shininess", 8.0}, {"shading.diffuse", 0.2}};
+  Given fromEye = shiny;
+  fromEye["lit_from"] = std::string("eye");
+  const Image rays = picture(scene, kRays, shiny);
+  const double right = shareOff(picture(scene, kVertices, shiny), rays);
+  const double wrong = shareOff(picture(scene, kVertices, fromEye), rays);
+  EXPECT_LT(right, 0.02);
+  EXPECT_GT(wrong, 2.0 * right);
+}
+
+/// Errors of vertices against reflection points found in double precision on the mesh itself. Sides of the
+/// last triangle are below 0.014 px; the map's texels add their interpolation of facets 1/64 of a quarter
+/// circle wide, of a sagitta of 1.5e-4 radii or 0.005 px, seen at a slant.
+TEST_F(VertexReflectionPicture, VerticesAreWithinAFractionOfAPixel) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{64}}});
+  const Rendered rendered = render(scene, kVertices, evenly(2), kSize, true);
+  EXPECT_GT(rendered.counter("true_points"), 500.0);
+  EXPECT_LT(rendered.counter("screen_error_median_px"), 0.01);
+  EXPECT_LT(rendered.counter("screen_error_p95_px"), 0.1);
+  EXPECT_EQ(rendered.counter("vertices_no_surface"), 0.0);
+  EXPECT_EQ(rendered.counter("true_points_maximum"), 0.0);  // convex mirrors have none
+  // What the ball hides has no reflection.
+  EXPECT_GT(rendered.counter("vertices_false_root"), 0.0);
+}
+
+TEST_F(VertexReflectionPicture, APreviousFrameSavesSteps) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{24}}});
+  const TechniqueInfo& info = TechniqueRegistry::instance().get(kVertices);
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, kSize);
+  const auto made = info.make(ParameterValues(
+      info.parameters,
+      evenly(4, {{"solver.guess", std::string("previous_frame")}, {"solver.least_side", 0.005}})));
+  made->prepare(frame);
+  double before = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    frame.begin();
+    made->render(frame);
+    frame.end();
+    for (const Counter& counter : made->count(frame))
+      if (counter.name == "iterations_mean") {
+        if (i == 0) before = counter.value;
+        // A start within 0.005 radii of the root saves at least the first of the secant's halvings.
+        if (i == 1) EXPECT_LT(counter.value, before - 1.0);
+      }
+  }
+}
+
+TEST_F(VertexReflectionPicture, MirrorsThatNoPointSeesAreRefused) {
+  scene::Scene scene = makeScene("mirrors/shapes", {{"mirror", std::string("sphere")}});
+  scene::Mesh two = scene::sphere({-1.0, 0.5, 0.0}, 0.3, 8);
+  scene::append(two, scene::sphere({1.0, 0.5, 0.0}, 0.3, 8));
+  scene::Material material;
+  material.name = "pair";
+  material.mirror = glm::vec3(0.8F);
+  scene::addPart(scene, two, material);
+  try {
+    picture(scene, kVertices);
+    FAIL() << "taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("pair"), std::string::npos);
+  }
+}
+
+TEST_F(VertexReflectionPicture, ContradictionsAreRefused) {
+  EXPECT_TRUE(
+      refusal(kVertices, {{"tessellation", std::string("even")}, {"invalid", std::string("subdivide")}}));
+  EXPECT_TRUE(refusal(kVertices, {{"placement", std::string("vertex_shader")},
+                                  {"solver.guess", std::string("previous_frame")}}));
+}
+
+}  // namespace
+}  // namespace limen::techniques
