@@ -110,6 +110,53 @@ TEST_F(VertexReflectionPicture, VerticesAreWithinAFractionOfAPixel) {
   EXPECT_GT(rendered.counter("vertices_false_root"), 0.0);
 }
 
+/// The environment map is seen from the mirror's middle: the farther its objects, the less that matters. The
+/// floor from 3 radii on is seen from half a radius beside: at most 1/6 rad aside, but along the floor's
+/// distant part, where this moves edges by little. Without the map (a distance beyond the scene) nothing may
+/// change at all; with it a gap would show the background in a sixth of the picture's pixels.
+TEST_F(VertexReflectionPicture, AnEnvironmentMapContinuesWhatVerticesShow) {
+  scene::Scene scene = makeScene("mirrors/shapes", {{"objects", int64_t{6}}});
+  const auto with = [](double distance) {
+    return Given{{"surroundings", std::string("environment")}, {"surroundings.distance", distance}};
+  };
+  const Image plain = picture(scene, kVertices);
+  EXPECT_LT(shareOff(picture(scene, kVertices, with(100.0)), plain, 1e-4), 1e-3);
+  // Without the floor's checks, a gap is all that may be seen.
+  scene.materials[0].pattern.kind = scene::Pattern::Kind::None;
+  EXPECT_LT(shareOff(picture(scene, kVertices, with(3.0)), picture(scene, kRays)), 0.02);
+}
+
+/// Of a plate in contact with the mirror one vertex coincides with its reflection; nothing becomes infinite.
+TEST_F(VertexReflectionPicture, ContactIsFinite) {
+  const scene::Scene scene = makeScene("mirrors/contact");
+  const Image contact = picture(scene, kVertices);
+  for (const float value : contact.data) ASSERT_TRUE(std::isfinite(value));
+  EXPECT_LT(shareOff(contact, picture(scene, kRays)), 0.02);
+}
+
+/// What the eye sees behind the mirror's far side must not show through: without the test of back faces a
+/// reflection could only gain pixels. Against rays it must not lose any that are right.
+TEST_F(VertexReflectionPicture, BackFacesHideNothingThatIsSeen) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{32}}});
+  const Image rays = picture(scene, kRays);
+  const double hiding = shareOff(picture(scene, kVertices, evenly(8)), rays);
+  const double all = shareOff(picture(scene, kVertices, evenly(8, {{"hide_behind_backs", false}})), rays);
+  EXPECT_LT(hiding, 0.02);
+  EXPECT_LT(hiding, all + 0.005);
+}
+
+/// Small motions of the eye move reflection points in proportion: between frames apart by 0.001 distances,
+/// the change of a point's error is within the search's own end (0.014 px) and the map's.
+TEST_F(VertexReflectionPicture, PointsFollowTheEyeWithoutJumps) {
+  scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{64}}});
+  double p95 = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    scene.camera.keys[0].camera.eye += glm::dvec3(0.003, 0.0, 0.0);
+    p95 = std::max(p95, render(scene, kVertices, evenly(2), kSize, true).counter("screen_error_p95_px"));
+  }
+  EXPECT_LT(p95, 0.1);
+}
+
 TEST_F(VertexReflectionPicture, APreviousFrameSavesSteps) {
   const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{24}}});
   const TechniqueInfo& info = TechniqueRegistry::instance().get(kVertices);
