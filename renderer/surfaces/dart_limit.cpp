@@ -6,15 +6,24 @@ namespace {
 
 using glm::dvec3;
 
-/// The ring shrinks by about a half in each step: 56 leave nothing in double precision. The normal is taken
-/// before its ring has drowned in rounding.
-constexpr int kSteps = 56, kNormalAfter = 18;
+/// The ring shrinks by about a half in each step. Positions are kept relative to the vertex, so that the
+/// ring's shape does not drown in rounding: of it, what is not tangent shrinks faster, by 0.46 / 0.5 at least
+/// (valence 7).
+constexpr int kSteps = 100;
 
 dvec3 fanNormal(dvec3 vertex, const std::vector<dvec3>& edges) {
   dvec3 out(0.0);
   for (size_t i = 0; i < edges.size(); ++i)
     out += glm::cross(edges[i] - vertex, edges[(i + 1) % edges.size()] - vertex);
   return out;
+}
+
+/// Into coordinates whose origin, `origin`, is the vertex.
+void moveToVertex(dvec3& vertex, dvec3& origin, std::vector<dvec3>& edges, std::vector<dvec3>& diagonals) {
+  for (dvec3& p : edges) p -= vertex;
+  for (dvec3& p : diagonals) p -= vertex;
+  origin += vertex;
+  vertex = dvec3(0.0);
 }
 
 }  // namespace
@@ -24,7 +33,7 @@ DartLimit catmullClarkDart(dvec3 vertex, std::vector<dvec3> edges, std::vector<d
   const size_t n = edges.size();
   DartLimit out{};
   for (int step = 0; step < kSteps; ++step) {
-    if (step == kNormalAfter) out.normal = fanNormal(vertex, edges);
+    moveToVertex(vertex, out.point, edges, diagonals);
     std::vector<dvec3> faces(n), ends(n);
     dvec3 edgeSum(0.0), faceSum(0.0);
     for (size_t i = 0; i < n; ++i) {
@@ -38,15 +47,17 @@ DartLimit catmullClarkDart(dvec3 vertex, std::vector<dvec3> edges, std::vector<d
     vertex = (k - 2.0) / k * vertex + (edgeSum + faceSum) / (k * k);
     edges = std::move(ends), diagonals = std::move(faces);
   }
-  out.point = vertex;
+  out.point += vertex;
+  out.normal = fanNormal(vertex, edges);
   return out;
 }
 
 DartLimit loopDart(dvec3 vertex, std::vector<dvec3> edges, double own, size_t sharp) {
   const size_t n = edges.size();
+  std::vector<dvec3> none;
   DartLimit out{};
   for (int step = 0; step < kSteps; ++step) {
-    if (step == kNormalAfter) out.normal = fanNormal(vertex, edges);
+    moveToVertex(vertex, out.point, edges, none);
     std::vector<dvec3> ends(n);
     dvec3 sum(0.0);
     for (size_t i = 0; i < n; ++i) {
@@ -57,7 +68,8 @@ DartLimit loopDart(dvec3 vertex, std::vector<dvec3> edges, double own, size_t sh
     vertex = (1.0 - own * static_cast<double>(n)) * vertex + own * sum;
     edges = std::move(ends);
   }
-  out.point = vertex;
+  out.point += vertex;
+  out.normal = fanNormal(vertex, edges);
   return out;
 }
 

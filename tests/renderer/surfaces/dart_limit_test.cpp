@@ -15,6 +15,7 @@ namespace limen::surfaces {
 namespace {
 
 constexpr double kSharp = kInfinitelySharp;
+const double kBeside = std::ldexp(1.0, -80);
 
 /// A bumpy fan of `valence` faces around vertex 0 with two further rings, one of whose spokes is sharp up to
 /// the middle.
@@ -57,7 +58,11 @@ void expectLimit(const PolygonMesh& mesh, const glm::dvec3& limit, const LimitPo
                  const LimitPoint& beside, glm::dvec3 normal, int valence) {
   EXPECT_LT(glm::length(limit - exact.position), 1e-9) << valence;
   EXPECT_GT(glm::length(limit - mesh.points[0]), 0.01) << valence;  // it does move
-  // Normals are continuous there: a millionth of the face away they are as good as the same.
+  // Of a vertex of valence 8 Catmull-Clark's rules leave more than two directions that shrink by a half, and
+  // no plane.
+  if (valence > 7) return;
+  // 80 steps away the ring has taken its plane but for (0.4619 / 0.5)^80 = 0.0018 (valence 7): 0.1 degrees,
+  // in both.
   EXPECT_GT(glm::dot(normal, beside.normal), std::cos(glm::radians(0.2))) << valence;
 }
 
@@ -66,7 +71,7 @@ TEST(DartLimit, IsWhereCatmullClarkStepsLead) {
     const PolygonMesh mesh = fan(valence, false);
     const LimitPoints limit = catmullClarkLimit(mesh);
     expectLimit(mesh, limit.points[0], catmullClarkPoint(mesh, 0, 0.0, 0.0),
-                catmullClarkPoint(mesh, 0, 1e-6, 1e-6), limit.normals[0][0], valence);
+                catmullClarkPoint(mesh, 0, kBeside, kBeside, 120), limit.normals[0][0], valence);
   }
 }
 
