@@ -20,6 +20,16 @@ const uint kComposeLocalUnit = 3u;
 const uint kComposeReflectedUnit = 4u;
 const uint kComposeImage = 1u;
 
+// Views of mirrors and reflectors (ViewRaster).
+const uint kViewGroupsBuffer = 6u;
+const uint kViewMaskUnit = 0u;
+
+// Planar mirrors: the ray of each pixel between two bounces.
+const uint kPlanarOriginImage = 1u;
+const uint kPlanarDirectionImage = 2u;
+const uint kPlanarShareImage = 3u;
+const uint kPlanarChainImage = 4u;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif
