@@ -75,6 +75,13 @@ void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
     out.value(set.motion.periodS), out.array(set.motion.sine), out.array(set.motion.cosine);
 }
 
+void feedCage(Feed& out, const surfaces::PolygonMesh& cage) {
+  out.text("cage"), out.array(cage.points);
+  for (const std::vector<uint32_t>& face : cage.faces) out.array(face);
+  for (const auto& [edge, sharpness] : cage.sharpness)
+    out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
+}
+
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
 /// hash.
 void feedExtras(Feed& out, const Scene& scene) {
@@ -119,6 +126,7 @@ void feedExtras(Feed& out, const Scene& scene) {
   if (scene.items)
     out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
         out.value(scene.items->buckets);
+  if (scene.cage) feedCage(out, *scene.cage);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -187,6 +195,8 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
+  if (cage) out.insert("subdivision_cage");
+  if (!nurbs.empty()) out.insert("nurbs");
   if (surfaces.motion.moves()) out.insert("moving_surfaces");
   if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
   if (items) out.insert("item_stream");

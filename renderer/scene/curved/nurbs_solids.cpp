@@ -89,9 +89,14 @@ surfaces::NurbsSurface nurbsSheet(glm::dvec3 middle, double half) {
 }
 
 std::vector<NurbsSolid> nurbsSolids() {
-  return {{"ball", nurbsPatches(nurbsSphere(kBallCentre, 0.38)), kBallAlbedo},
-          {"vase", nurbsPatches(vaseSurface()), kVaseAlbedo},
-          {"sheet", nurbsPatches(nurbsSheet(kSheetMiddle, 0.6)), kSheetAlbedo}};
+  std::vector<NurbsSolid> out;
+  const auto add = [&](const char* name, const surfaces::NurbsSurface& surface, glm::vec3 albedo) {
+    out.push_back({name, nurbsPatches(surface), albedo, surface});
+  };
+  add("ball", nurbsSphere(kBallCentre, 0.38), kBallAlbedo);
+  add("vase", vaseSurface(), kVaseAlbedo);
+  add("sheet", nurbsSheet(kSheetMiddle, 0.6), kSheetAlbedo);
+  return out;
 }
 
 std::vector<NurbsSolid> trimmedSolids() {

@@ -123,8 +123,11 @@ struct NurbsSettings {
 Scene buildNurbs(const NurbsSettings& settings) {
   Scene scene;
   addGround(scene, 12.0);
-  for (const NurbsSolid& solid : nurbsSolids())
+  for (const NurbsSolid& solid : nurbsSolids()) {
+    scene.nurbs.push_back({solid.surface, static_cast<uint32_t>(scene.parts.size()),
+                           static_cast<uint32_t>(scene.surfaces.patches.size())});
     addSurface(scene, solid.name, solid.patches, settings.tessellation, solid.albedo);
+  }
   frameStanding(scene, 1.0, 1.3);
   return scene;
 }
