@@ -33,6 +33,10 @@ void mapWorld(Scene& scene, Map map) {
     point = glm::dvec4(point.w == 0.0 ? map(glm::dvec3(point)) - map(glm::dvec3(0.0))
                                       : map(glm::dvec3(point) / point.w) * point.w,
                        point.w);
+  for (surfaces::SubdivisionSurface& surface : scene.subdivisions) {
+    for (glm::dvec3& point : surface.cage.points) point = map(point);
+    for (surfaces::Joint& joint : surface.joints) joint.pivot = map(joint.pivot);
+  }
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);

@@ -69,6 +69,20 @@ void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
       out.value(side.patch), out.value(side.side), out.value(static_cast<uint8_t>(side.reversed));
 }
 
+void feedSubdivision(Feed& out, const surfaces::SubdivisionSurface& surface) {
+  out.text("subdivision"), out.array(surface.cage.points), out.value(static_cast<uint8_t>(surface.scheme));
+  out.value(surface.part);
+  for (const std::vector<uint32_t>& face : surface.cage.faces) out.array(face);
+  for (const auto& [edge, sharpness] : surface.cage.sharpness)
+    out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
+  for (const surfaces::Joint& joint : surface.joints) {
+    out.vector(joint.pivot), out.vector(joint.axis);
+    out.value(joint.amplitudeRad), out.value(joint.periodS), out.value(joint.phaseRad);
+  }
+  for (const surfaces::JointBinding& binding : surface.bindings)
+    out.value(binding.joint), out.value(binding.weight);
+}
+
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
 /// hash.
 void feedExtras(Feed& out, const Scene& scene) {
@@ -110,6 +124,7 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
   if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
+  for (const surfaces::SubdivisionSurface& surface : scene.subdivisions) feedSubdivision(out, surface);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -178,6 +193,7 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
+  if (!subdivisions.empty()) out.insert("subdivision_surfaces");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];

@@ -14,6 +14,7 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/scene/material.h"
 #include "renderer/surfaces/patch_set.h"
+#include "renderer/surfaces/subdivision_surface.h"
 
 namespace limen::scene {
 
@@ -147,6 +148,9 @@ struct Scene {
   /// Curved surfaces. `mesh` holds a tessellation of each of their parts, so that renderers that know
   /// triangles alone render the scene as well.
   surfaces::PatchSet surfaces;
+  /// Control meshes of subdivision surfaces. `mesh`, and `surfaces` if it has any of their part, hold what
+  /// stands in for them.
+  std::vector<surfaces::SubdivisionSurface> subdivisions;
   /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
   /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
@@ -160,7 +164,8 @@ struct Scene {
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
-  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces"; of its
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
+  /// "subdivision_surfaces"; of its
   /// parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
