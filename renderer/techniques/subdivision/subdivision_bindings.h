@@ -79,6 +79,20 @@ const uint kSubdivisionPlacesBuffer = 3u;  // rows' places (x in the lower 16 bi
 const uint kFineVerticesBuffer = 4u;       // TessellatedVertex
 const uint kFineIndicesBuffer = 5u;
 
+// Levels of edges.
+struct AdaptiveTotals {  // std430; a RasterCount, then a DrawElementsIndirectCommand
+  uint triangles, vertices, unused0, unused1;
+  uint indices, instances, firstIndex, firstVertex, firstInstance;
+  uint unused2, unused3, unused4;
+};
+#ifdef __cplusplus
+static_assert(sizeof(AdaptiveTotals) == 48 && offsetof(AdaptiveTotals, indices) == 16);
+#endif
+const uint kEdgeLevelsBuffer = 5u;   // one number for each fine edge
+const uint kPatchCountsBuffer = 4u;  // uvec2: vertices, triangles
+const uint kPatchOffsetsBuffer = 7u;
+const uint kAdaptiveTotalsBuffer = 4u;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif

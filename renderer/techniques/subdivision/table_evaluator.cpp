@@ -189,16 +189,4 @@ void TableEvaluator::stateBytes(frame::Frame& frame) const {
                               bytes() + (vertices_ ? vertices_->bytes() + indices_->bytes() : 0));
 }
 
-int64_t TableEvaluator::termsOfMain() const {
-  int64_t out = 0;
-  const int64_t n = segments(), inside = layout_.corners() == 3 ? (n - 1) * (n - 2) / 2 : (n - 1) * (n - 1);
-  for (const surfaces::TablePatch& patch : layout_.patches) {
-    int64_t made = inside;
-    for (size_t s = 0; s < layout_.corners(); ++s)
-      made += (patch.writesEdge[s] ? n - 1 : 0) + (patch.writesCorner[s] ? 1 : 0);
-    out += made * int64_t(patch.controls.size());
-  }
-  return out;
-}
-
 }  // namespace limen::techniques

@@ -56,8 +56,6 @@ class TableEvaluator {
   void bindTables(const gl::Program& program) const;
   gl::ShaderDefines defines() const;
   int64_t bytes() const;
-  /// Products of a weight and a control vertex in a frame of the main step in compute.
-  int64_t termsOfMain() const;
 
  private:
   void dispatch(const gl::Program& program, const char* count, uint32_t of) const;

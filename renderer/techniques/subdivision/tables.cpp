@@ -14,6 +14,7 @@
 
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/subdivision/adaptive_mesh.h"
 #include "renderer/techniques/subdivision/subdivision_bindings.h"
 #include "renderer/techniques/subdivision/table_evaluator.h"
 #include "renderer/techniques/technique.h"
@@ -30,9 +31,14 @@ constexpr EnumNames<MainStep, 3> enumNames(MainStep) {
             {MainStep::Stages, "tessellation_stages"}}}};
 }
 
+struct UniformLevels {
+  static constexpr const char *kKind = "uniform", *kSummary = "the same level everywhere";
+};
+
 struct TablesSettings {
   int level = 4;
   MainStep form = MainStep::Compute;
+  std::variant<UniformLevels, AdaptiveMeshSettings> refinement;
   NormalStart normals = NormalStart::First;
   double poseS = 0.0;
   frame::Raster raster = frame::Raster::Auto;
@@ -54,6 +60,8 @@ struct TablesSettings {
          "pattern; or the driver's tessellation stages, whose inner vertices of triangles lie on the plane "
          "between three of the tables' ones",
          "Holländer 2013, section 2.2.3"},
+        {&S::refinement, "refinement", "Which level a patch and its edges have",
+         "Holländer 2013, section 2.2.3"},
         {&S::normals, "normals",
          "Where normals are taken from triangles, to be subdivided from there on, or else "
          "the surface's own",
@@ -67,7 +75,10 @@ struct TablesSettings {
         frame::shadingBinding(&S::shading)};
     return kTable;
   }
+  const AdaptiveMeshSettings* adaptive() const { return std::get_if<AdaptiveMeshSettings>(&refinement); }
   void check() const {
+    if (adaptive() && form != MainStep::Compute)
+      throw Error("levels of edges are made in compute", "refinement", "use form: compute");
     if (form != MainStep::Compute && raster == frame::Raster::Compute)
       throw Error("vertex shaders and tessellation stages are for the driver's rasteriser", "raster",
                   "use raster: hardware");
@@ -97,10 +108,15 @@ class SubdivisionTables : public Technique {
     picture_.emplace(frame, settings_.shading, "subdivision",
                      lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
     if (compute) {
-      evaluator_->allocateMesh(frame.context());
-      array_.emplace(evaluator_->vertices(), evaluator_->indices());
-      const frame::RasterCount count{evaluator_->triangleCount(), 0, 0, 0};
-      count_.emplace(int64_t{sizeof count}, &count);
+      if (settings_.adaptive()) {
+        adaptive_.emplace(frame.context(), *evaluator_, *settings_.adaptive());
+        array_.emplace(adaptive_->vertices(), adaptive_->indices());
+      } else {
+        evaluator_->allocateMesh(frame.context());
+        array_.emplace(evaluator_->vertices(), evaluator_->indices());
+        const frame::RasterCount count{evaluator_->triangleCount(), 0, 0, 0};
+        count_.emplace(int64_t{sizeof count}, &count);
+      }
       drawProgram_ =
           &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",
                                            "renderer/techniques/tessellation/surface.frag.glsl"});
@@ -108,17 +124,27 @@ class SubdivisionTables : public Technique {
       prepareDraw(frame);
     }
     evaluator_->stateBytes(frame);
+    if (adaptive_) frame.passes().setBytesHeld("subdivision/levels", adaptive_->bytes());
   }
 
   void render(frame::Frame& frame) override {
     evaluator_->runFirstSteps(frame, settings_.poseS + frame.timeS());
-    if (settings_.form == MainStep::Compute) evaluator_->runMain(frame);
+    if (adaptive_)
+      adaptive_->run(frame);
+    else if (settings_.form == MainStep::Compute)
+      evaluator_->runMain(frame);
+    if (lists_ && adaptive_) {
+      picture_->renderListed(frame, {adaptive_->vertices(), adaptive_->indices(), adaptive_->totals(),
+                                     adaptive_->mostTriangles()});
+      return;
+    }
     if (lists_) {
       picture_->renderListed(frame, {evaluator_->vertices(), evaluator_->indices(), *count_,
                                      int64_t{evaluator_->triangleCount()}});
       return;
     }
-    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
+                    GL_COMMAND_BARRIER_BIT);
     picture_->render(frame, [&] { draw(frame); });
   }
 
@@ -126,16 +152,16 @@ class SubdivisionTables : public Technique {
 
   std::vector<Counter> count(frame::Frame&) override {
     const surfaces::TableLayout& layout = evaluator_->layout();
-    return {{"drawn_triangles", double(evaluator_->triangleCount())},
-            {"drawn_vertices", double(evaluator_->vertexCount())},
-            {"table_terms", double(evaluator_->termsOfMain())},
+    AdaptiveTotals totals{};
+    if (adaptive_) totals = adaptive_->totals().read<AdaptiveTotals>()[0];
+    return {{"drawn_triangles", double(adaptive_ ? totals.triangles : evaluator_->triangleCount())},
+            {"drawn_vertices", double(adaptive_ ? totals.vertices : evaluator_->vertexCount())},
             {"tables", double(layout.tables.size())},
             {"table_bytes", double(layout.tableBytes())}};
   }
   static std::vector<Quantity> quantities() {
     return {{"drawn_triangles", "Triangles drawn", "triangles", Direction::LowerIsBetter},
             {"drawn_vertices", "Vertices, shared by neighbours", "vertices", Direction::LowerIsBetter},
-            {"table_terms", "Weights times control vertices", "products", Direction::LowerIsBetter},
             {"tables", "Tables of basis functions", "tables", Direction::Neither},
             {"table_bytes", "Memory of tables", "bytes", Direction::LowerIsBetter}};
   }
@@ -185,6 +211,13 @@ class SubdivisionTables : public Technique {
       drawProgram_->use();
       drawProgram_->set("anchorToClip", frame::anchorToClip(frame));
       array_->bind();
+      if (adaptive_) {
+        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, adaptive_->totals().id());
+        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(offsetof(AdaptiveTotals, indices)));
+        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+        return;
+      }
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * evaluator_->triangleCount()), GL_UNSIGNED_INT,
                      nullptr);
       return;
@@ -205,6 +238,7 @@ class SubdivisionTables : public Technique {
 
   Settings settings_;
   std::optional<TableEvaluator> evaluator_;
+  std::optional<AdaptiveMesh> adaptive_;
   std::optional<SurfacePicture> picture_;
   std::optional<SurfaceVertexArray> array_;
   std::optional<gl::Buffer> count_, pattern_;
