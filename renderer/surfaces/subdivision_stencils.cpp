@@ -280,14 +280,21 @@ std::optional<std::array<Stencil, 2>> loopTangents(const RuleMesh& mesh, const H
   along.add(ends.front(), 1.0), along.add(ends.back(), -1.0);
   if (m == 1) {
     over.add(ends[0], 1.0), over.add(ends[1], 1.0), over.add(v, -2.0);
-  } else if (m == 2) {
-    over.add(ends[1], 1.0), over.add(v, -1.0);
-  } else {
-    const double turn = M_PI / double(m);
-    over.add(ends.front(), -std::sin(turn)), over.add(ends.back(), -std::sin(turn));
-    for (size_t i = 1; i < m; ++i)
-      over.add(ends[i], (2.0 - 2.0 * std::cos(turn)) * std::sin(turn * double(i)));
+    return {{along.take(), over.take()}};
   }
+  // The left eigenvector of the rules around v for the eigenvalue 3/8 + cos(pi / m) / 4: sin(i pi / m) at
+  // inner edge i; those of v and of the ends solve the eigenvalue's two equations (with the masks of v and of
+  // boundary edges). The weights of Zorin and Schroeder 2000 are for other rules at boundaries.
+  const double turn = M_PI / double(m), lambda = 0.375 + 0.25 * std::cos(turn);
+  double sines = 0.0;
+  for (size_t i = 1; i < m; ++i) {
+    over.add(ends[i], std::sin(turn * double(i)));
+    sines += std::sin(turn * double(i));
+  }
+  const double own =
+      (0.125 * std::sin(turn) + 0.375 * (lambda - 0.5) * sines) / ((lambda - 0.5) * (lambda - 0.75) - 0.125);
+  over.add(v, own);
+  for (const uint32_t end : {ends.front(), ends.back()}) over.add(end, (lambda - 0.75) * own - 0.375 * sines);
   return {{along.take(), over.take()}};
 }
 

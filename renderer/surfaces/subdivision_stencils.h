@@ -50,7 +50,7 @@ std::optional<Stencil> limitStencil(const RuleMesh& mesh, const HalfEdges& edges
                                     uint32_t vertex);
 
 /// Two tangents of the limit surface at a vertex, whose cross product points outwards, of Loop's scheme.
-/// At a boundary those of Zorin and Schroeder 2000, section 4.2. None at corners with several faces.
+/// None at corners with several faces.
 std::optional<std::array<Stencil, 2>> loopTangents(const RuleMesh& mesh, const HalfEdges& edges,
                                                    uint32_t vertex);
 

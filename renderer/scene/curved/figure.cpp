@@ -134,19 +134,25 @@ surfaces::SubdivisionSurface figureOfTriangles() {
   for (const auto& face : out.cage.faces)
     for (const uint32_t v : face) ++valence[v];
   const std::vector<uint32_t> ofQuads = valence;
+  // Vertices of three edges keep them; elsewhere diagonals go where there are fewest edges, in a few rounds.
+  std::vector<size_t> first(out.cage.faces.size(), 2);
+  for (int round = 0; round < 8; ++round)
+    for (size_t f = 0; f < out.cage.faces.size(); ++f) {
+      const std::vector<uint32_t>& q = out.cage.faces[f];
+      if (first[f] < 2) --valence[q[first[f]]], --valence[q[first[f] + 2]];
+      const auto cost = [&](uint32_t a, uint32_t b) {
+        return (1U << 2 * valence[a]) + (1U << 2 * valence[b]) +
+               (std::min(ofQuads[a], ofQuads[b]) == 3 ? 1U << 28 : 0U);
+      };
+      const uint32_t straight = cost(q[0], q[2]), other = cost(q[1], q[3]);
+      first[f] = straight < other || (straight == other && f % 2 == 0) ? 0 : 1;
+      ++valence[q[first[f]]], ++valence[q[first[f] + 2]];
+    }
   std::vector<std::vector<uint32_t>> triangles;
-  // Vertices of three edges keep them; elsewhere the diagonal between the two with fewer edges, or either.
   for (size_t f = 0; f < out.cage.faces.size(); ++f) {
     const std::vector<uint32_t>& q = out.cage.faces[f];
-    const auto cost = [&](uint32_t a, uint32_t b) {
-      return valence[a] + valence[b] + (std::max(valence[a], valence[b]) >= 7 ? 100U : 0U) +
-             (std::min(ofQuads[a], ofQuads[b]) == 3 ? 20U : 0U);
-    };
-    const uint32_t straight = cost(q[0], q[2]), other = cost(q[1], q[3]);
-    const size_t first = straight < other || (straight == other && f % 2 == 0) ? 0 : 1;
-    ++valence[q[first]], ++valence[q[first + 2]];
-    triangles.push_back({q[first], q[first + 1], q[first + 2]});
-    triangles.push_back({q[first], q[first + 2], q[(first + 3) % 4]});
+    triangles.push_back({q[first[f]], q[first[f] + 1], q[first[f] + 2]});
+    triangles.push_back({q[first[f]], q[first[f] + 2], q[(first[f] + 3) % 4]});
   }
   out.cage.faces = std::move(triangles);
   return out;
