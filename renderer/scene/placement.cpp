@@ -36,6 +36,10 @@ void mapWorld(Scene& scene, Map map) {
                          point.w);
   };
   mapPoints(scene.surfaces.points);
+  for (surfaces::SubdivisionSurface& surface : scene.subdivisions) {
+    for (glm::dvec3& point : surface.cage.points) point = map(point);
+    for (surfaces::Joint& joint : surface.joints) joint.pivot = map(joint.pivot);
+  }
   if (scene.cage)
     for (glm::dvec3& point : scene.cage->points) point = map(point);
   for (NurbsPart& part : scene.nurbs) mapPoints(part.surface.points);

@@ -82,6 +82,20 @@ void feedCage(Feed& out, const surfaces::PolygonMesh& cage) {
     out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
 }
 
+void feedSubdivision(Feed& out, const surfaces::SubdivisionSurface& surface) {
+  out.text("subdivision"), out.array(surface.cage.points), out.value(static_cast<uint8_t>(surface.scheme));
+  out.value(surface.part);
+  for (const std::vector<uint32_t>& face : surface.cage.faces) out.array(face);
+  for (const auto& [edge, sharpness] : surface.cage.sharpness)
+    out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
+  for (const surfaces::Joint& joint : surface.joints) {
+    out.vector(joint.pivot), out.vector(joint.axis);
+    out.value(joint.amplitudeRad), out.value(joint.periodS), out.value(joint.phaseRad);
+  }
+  for (const surfaces::JointBinding& binding : surface.bindings)
+    out.value(binding.joint), out.value(binding.weight);
+}
+
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
 /// hash.
 void feedExtras(Feed& out, const Scene& scene) {
@@ -127,6 +141,7 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
         out.value(scene.items->buckets);
   if (scene.cage) feedCage(out, *scene.cage);
+  for (const surfaces::SubdivisionSurface& surface : scene.subdivisions) feedSubdivision(out, surface);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -200,6 +215,7 @@ std::set<std::string> Scene::traits() const {
   if (surfaces.motion.moves()) out.insert("moving_surfaces");
   if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
   if (items) out.insert("item_stream");
+  if (!subdivisions.empty()) out.insert("subdivision_surfaces");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];
