@@ -75,13 +75,6 @@ void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
     out.value(set.motion.periodS), out.array(set.motion.sine), out.array(set.motion.cosine);
 }
 
-void feedCage(Feed& out, const surfaces::PolygonMesh& cage) {
-  out.text("cage"), out.array(cage.points);
-  for (const std::vector<uint32_t>& face : cage.faces) out.array(face);
-  for (const auto& [edge, sharpness] : cage.sharpness)
-    out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
-}
-
 void feedSubdivision(Feed& out, const surfaces::SubdivisionSurface& surface) {
   out.text("subdivision"), out.array(surface.cage.points), out.value(static_cast<uint8_t>(surface.scheme));
   out.value(surface.part);
@@ -140,7 +133,6 @@ void feedExtras(Feed& out, const Scene& scene) {
   if (scene.items)
     out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
         out.value(scene.items->buckets);
-  if (scene.cage) feedCage(out, *scene.cage);
   for (const surfaces::SubdivisionSurface& surface : scene.subdivisions) feedSubdivision(out, surface);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
@@ -210,7 +202,6 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
-  if (cage) out.insert("subdivision_cage");
   if (!nurbs.empty()) out.insert("nurbs");
   if (surfaces.motion.moves()) out.insert("moving_surfaces");
   if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");

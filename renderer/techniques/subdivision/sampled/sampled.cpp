@@ -24,13 +24,13 @@ constexpr EnumNames<LimitMethod, 3> enumNames(LimitMethod) {
       {{{LimitMethod::Direct, "direct"}, {LimitMethod::Steps, "steps"}, {LimitMethod::Tables, "tables"}}}};
 }
 
-enum class SubdivisionScheme { CatmullClark, Loop };
-constexpr EnumNames<SubdivisionScheme, 2> enumNames(SubdivisionScheme) {
-  return {{{{SubdivisionScheme::CatmullClark, "catmull_clark"}, {SubdivisionScheme::Loop, "loop"}}}};
+enum class LimitScheme { CatmullClark, Loop };
+constexpr EnumNames<LimitScheme, 2> enumNames(LimitScheme) {
+  return {{{{LimitScheme::CatmullClark, "catmull_clark"}, {LimitScheme::Loop, "loop"}}}};
 }
 
 struct SampledSettings {
-  SubdivisionScheme scheme = SubdivisionScheme::CatmullClark;
+  LimitScheme scheme = LimitScheme::CatmullClark;
   LimitMethod method = LimitMethod::Steps;
   int levels = 3;
   frame::ShadedSetting shading;
@@ -49,7 +49,7 @@ struct SampledSettings {
     return kTable;
   }
   void check() const {
-    if (scheme == SubdivisionScheme::Loop && method == LimitMethod::Tables)
+    if (scheme == LimitScheme::Loop && method == LimitMethod::Tables)
       throw Error("weights are tabulated of Catmull-Clark's surfaces alone", "method", "use steps or direct");
   }
 };
@@ -186,11 +186,12 @@ class SampledSubdivision : public Technique {
   explicit SampledSubdivision(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    cage_ = *frame.scene().cage;
-    if (settings_.scheme == SubdivisionScheme::Loop) cage_ = inTriangles(std::move(cage_));
+    const surfaces::SubdivisionSurface& surface = frame.scene().subdivisions.at(0);
+    cage_ = surface.cage;
+    if (settings_.scheme == LimitScheme::Loop) cage_ = inTriangles(std::move(cage_));
     mesh_ = made();
     const glm::dvec3 anchor = frame.gpuScene().anchor();
-    const uint32_t material = frame.scene().parts[frame.scene().cagePart].material;
+    const uint32_t material = frame.scene().parts[surface.part].material;
     std::vector<TessellatedVertex> vertices;
     for (const LimitSample& sample : mesh_.samples)
       vertices.push_back(
@@ -218,7 +219,7 @@ class SampledSubdivision : public Technique {
   /// Against direct evaluation: at most `kChecked` samples at regular intervals.
   std::vector<Counter> count(frame::Frame&) override {
     constexpr size_t kChecked = 2000;
-    const bool isLoop = settings_.scheme == SubdivisionScheme::Loop;
+    const bool isLoop = settings_.scheme == LimitScheme::Loop;
     glm::dvec3 low(1e300), high(-1e300);
     double most = 0.0;
     for (size_t i = 0; i < mesh_.samples.size(); i += mesh_.samples.size() / kChecked + 1) {
@@ -236,7 +237,7 @@ class SampledSubdivision : public Technique {
 
  private:
   LimitMesh made() {
-    const bool isLoop = settings_.scheme == SubdivisionScheme::Loop;
+    const bool isLoop = settings_.scheme == LimitScheme::Loop;
     if (settings_.method != LimitMethod::Steps)
       return isLoop ? directTriangles(cage_, settings_.levels) : gridsOf(cage_, settings_, tables_);
     if (isLoop) {
@@ -269,7 +270,7 @@ const RegisteredTechnique<SampledSubdivision> kSampledSubdivisionRegistered{
          "Bolz and Schröder 2002; Schaefer and Warren 2007; Stam 1998; Schwarz 2009, section 6.1.5 (SC-19 to "
          "SC-21)",
      .product = ProductKind::Colour,
-     .needs = {"subdivision_cage"},
+     .needs = {"subdivision_surfaces"},
      .counters = {{"limit_samples", "Limit points made", "points", Direction::Neither},
                   {"limit_error_of_diagonal", "Distance from points by direct evaluation, largest", "",
                    Direction::LowerIsBetter},
