@@ -118,7 +118,7 @@ constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
 }
 
 struct ControlMeshSettings {
-  ControlCage cage = ControlCage::TwoTorus;
+  ControlCage cage = ControlCage::Valence;
   int valence = 24;
   FigureSettings figure;
   static const SettingsTable<ControlMeshSettings>& table() {
