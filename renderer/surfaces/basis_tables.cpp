@@ -161,11 +161,14 @@ Surroundings surroundingsOf(const RuleMesh& mesh, const HalfEdges& edges, uint32
     out.mesh.faces.push_back(std::move(corners));
   }
   out.mesh.vertices = number.size();
+  // What is sharp beyond the face's own corners does not matter.
+  const auto corners = static_cast<uint32_t>(mesh.faces[face].size());
   for (const uint32_t entry : entries)
     for (uint32_t h = entry;;) {
       const uint32_t a = edges.from[h], b = edges.to(h);
-      if (mesh.isSharp(a, b)) out.mesh.sharp.insert(edgeKey(number.at(a), number.at(b)));
-      if (mesh.corners.contains(a)) out.mesh.corners.insert(number.at(a));
+      const uint32_t from = number.at(a), to = number.at(b);
+      if (mesh.isSharp(a, b) && std::min(from, to) < corners) out.mesh.sharp.insert(edgeKey(from, to));
+      if (mesh.corners.contains(a) && from < corners) out.mesh.corners.insert(from);
       h = edges.next[h];
       if (h == entry) break;
     }

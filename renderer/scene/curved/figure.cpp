@@ -134,7 +134,8 @@ surfaces::SubdivisionSurface figureOfTriangles() {
   for (const auto& face : out.cage.faces)
     for (const uint32_t v : face) ++valence[v];
   const std::vector<uint32_t> ofQuads = valence;
-  // Vertices of three edges keep them; elsewhere diagonals go where there are fewest edges, in a few rounds.
+  // Vertices of three edges keep them unless others would get eight; elsewhere diagonals go where there are
+  // fewest edges, in a few rounds.
   std::vector<size_t> first(out.cage.faces.size(), 2);
   for (int round = 0; round < 8; ++round)
     for (size_t f = 0; f < out.cage.faces.size(); ++f) {
@@ -142,7 +143,7 @@ surfaces::SubdivisionSurface figureOfTriangles() {
       if (first[f] < 2) --valence[q[first[f]]], --valence[q[first[f] + 2]];
       const auto cost = [&](uint32_t a, uint32_t b) {
         return (1U << 2 * valence[a]) + (1U << 2 * valence[b]) +
-               (std::min(ofQuads[a], ofQuads[b]) == 3 ? 1U << 28 : 0U);
+               (std::min(ofQuads[a], ofQuads[b]) == 3 ? 8192U : 0U);
       };
       const uint32_t straight = cost(q[0], q[2]), other = cost(q[1], q[3]);
       first[f] = straight < other || (straight == other && f % 2 == 0) ? 0 : 1;

@@ -105,24 +105,24 @@ const RegisteredScene<FigureSettings> kFigure{
      .source = "Holländer 2013, Table 2.1 (in place of its Big Guy)"},
     buildFigure};
 
-enum class Cage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus };
-constexpr EnumNames<Cage, 8> enumNames(Cage) {
-  return {{{{Cage::Octahedron, "octahedron"},
-            {Cage::Tetrahedron, "tetrahedron"},
-            {Cage::Sheet, "sheet"},
-            {Cage::Fan, "fan"},
-            {Cage::Valence, "valence"},
-            {Cage::Crease, "crease"},
-            {Cage::Collapsed, "collapsed"},
-            {Cage::TwoTorus, "double_torus"}}}};
+enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus };
+constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
+  return {{{{ControlCage::Octahedron, "octahedron"},
+            {ControlCage::Tetrahedron, "tetrahedron"},
+            {ControlCage::Sheet, "sheet"},
+            {ControlCage::Fan, "fan"},
+            {ControlCage::Valence, "valence"},
+            {ControlCage::Crease, "crease"},
+            {ControlCage::Collapsed, "collapsed"},
+            {ControlCage::TwoTorus, "double_torus"}}}};
 }
 
-struct CageSettings {
-  Cage cage = Cage::TwoTorus;
+struct ControlMeshSettings {
+  ControlCage cage = ControlCage::Valence;
   int valence = 24;
   FigureSettings figure;
-  static const SettingsTable<CageSettings>& table() {
-    using S = CageSettings;
+  static const SettingsTable<ControlMeshSettings>& table() {
+    using S = ControlMeshSettings;
     static const SettingsTable<S> kTable = {
         {&S::cage, "cage",
          "Control mesh: closed ones of valence 4 or 3, an open sheet, open triangles around a vertex, two "
@@ -138,29 +138,29 @@ struct CageSettings {
   }
 };
 
-surfaces::PolygonMesh cageOf(const CageSettings& settings) {
+surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
   const auto n = static_cast<uint32_t>(settings.valence);
   switch (settings.cage) {
-    case Cage::Octahedron:
+    case ControlCage::Octahedron:
       return pyramids(4);
-    case Cage::Tetrahedron:
+    case ControlCage::Tetrahedron:
       return tetrahedron();
-    case Cage::Sheet:
+    case ControlCage::Sheet:
       return bumpySheet(6, settings.figure.scheme == CageScheme::CatmullClark);
-    case Cage::Fan:
+    case ControlCage::Fan:
       return openFan(n);
-    case Cage::Crease: {
+    case ControlCage::Crease: {
       surfaces::PolygonMesh mesh = pyramids(n);
       for (uint32_t i = 0; i < n; ++i)
         mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = surfaces::kInfinitelySharp;
       return mesh;
     }
-    case Cage::Collapsed: {
+    case ControlCage::Collapsed: {
       surfaces::PolygonMesh mesh = pyramids(n);
       mesh.points[3] = mesh.points[2];
       return mesh;
     }
-    case Cage::TwoTorus: {
+    case ControlCage::TwoTorus: {
       surfaces::PolygonMesh mesh = doubleTorusCage();
       for (glm::dvec3& p : mesh.points) p = {p.x, -p.z, p.y};
       return settings.figure.scheme == CageScheme::CatmullClark ? mesh : ofTriangles(std::move(mesh));
@@ -170,7 +170,7 @@ surfaces::PolygonMesh cageOf(const CageSettings& settings) {
   }
 }
 
-Scene buildCage(const CageSettings& settings) {
+Scene buildControlMesh(const ControlMeshSettings& settings) {
   surfaces::SubdivisionSurface surface;
   surface.cage = cageOf(settings);
   surface.scheme = settings.figure.scheme == CageScheme::CatmullClark
@@ -184,14 +184,14 @@ Scene buildCage(const CageSettings& settings) {
   return staged(std::move(surface), settings.figure);
 }
 
-const RegisteredScene<CageSettings> kCage{
-    {.name = "curved/cage",
+const RegisteredScene<ControlMeshSettings> kControlMeshScene{
+    {.name = "curved/control_mesh",
      .version = 1,
      .summary =
          "Control meshes that subdivision may trip over: extreme valences, boundaries, creases, collapsed "
          "triangles",
      .source = "bench"},
-    buildCage};
+    buildControlMesh};
 
 }  // namespace
 }  // namespace limen::scene

@@ -24,22 +24,23 @@ void main() {
     near[i] = controls[2u * points[own.firstPoint + i / 2u] + (i & 1u)];
   barrier();
   const int step = TABLE_SEGMENTS / segments;
+  const uint count = own.points, firstWeight = own.firstWeight, writes = own.writes;
   for (uint row = lane; row < rowsOfLevel; row += uint(kSubdivisionGroup)) {
     const ivec2 place = placeOfRow(row) / step;
     int along;
     const int side = sideOf(place, segments, along);
     const uint bit = side >= 8 ? uint(side - 4) : uint(max(side, 0));
-    if (side >= 0 && ((own.writes >> bit) & 1u) == 0u) continue;
+    if (side >= 0 && ((writes >> bit) & 1u) == 0u) continue;
     precise vec3 position = vec3(0.0);
     vec3 normal = vec3(0.0);
 #ifdef GEOMETRY_NORMALS
     vec3 a = vec3(0.0), b = vec3(0.0);
 #endif
-    for (uint s = 0u; s < own.points; ++s) {
-      const float weight = tables[own.firstWeight + s * rows + row];
-      position += weight * near[2u * s].xyz;
+    for (uint s = 0u; s < count; ++s) {
+      const float weight = tables[firstWeight + s * rows + row];
+      position = fma(vec3(weight), near[2u * s].xyz, position);
 #ifdef GEOMETRY_NORMALS
-      const uint at = own.firstWeight + s * rows + row + tangentStride;
+      const uint at = firstWeight + s * rows + row + tangentStride;
       a += tables[at] * near[2u * s].xyz;
       b += tables[at + tangentStride] * near[2u * s].xyz;
 #else

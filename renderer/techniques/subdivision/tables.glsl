@@ -21,7 +21,7 @@ vec3 tablePosition(uint patchNumber, uint row) {
   const SubdivisionPatch record = patches[patchNumber];
   precise vec3 sum = vec3(0.0);
   for (uint s = 0u; s < record.points; ++s)
-    sum += tables[record.firstWeight + s * rows + row] * controls[2u * points[record.firstPoint + s]].xyz;
+    sum = fma(vec3(tables[record.firstWeight + s * rows + row]), controls[2u * points[record.firstPoint + s]].xyz, sum);
   return sum;
 }
 

@@ -339,7 +339,7 @@ TEST_F(TablesOnGpu, LevelsOfEdgesLeaveNoCracks) {
 
 /// Finer segments give a better picture, and a level for each edge fewer triangles for it than one for all.
 TEST_F(TablesOnGpu, ErrorFallsWithTheLengthOfSegments) {
-  const scene::Scene scene = makeScene("curved/cage");
+  const scene::Scene scene = makeScene("curved/control_mesh", {{"cage", std::string("double_torus")}});
   const Image recursive = render(scene, "subdivision/recursive", {{"level", int64_t{6}}}, {160, 120}).product;
   double before = 1.0;
   for (const double segmentPx : {64.0, 16.0, 4.0}) {
@@ -359,7 +359,8 @@ TEST_F(TablesOnGpu, ErrorFallsWithTheLengthOfSegments) {
 /// driver's pattern for triangles lie elsewhere on nearly the same surface.
 TEST_F(TablesOnGpu, FormsDrawTheSamePicture) {
   for (const std::string scheme : {"loop", "catmull_clark"}) {
-    const scene::Scene scene = makeScene("curved/cage", {{"scheme", scheme}});
+    const scene::Scene scene =
+        makeScene("curved/control_mesh", {{"cage", std::string("double_torus")}, {"scheme", scheme}});
     const auto picture = [&](const std::string& form) {
       return render(scene, "subdivision/tables", {{"form", form}, {"level", int64_t{4}}}, {160, 120}).product;
     };
