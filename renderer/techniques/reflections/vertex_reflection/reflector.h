@@ -28,9 +28,9 @@ struct Reflector {
 std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
                                       const reflections::ReflectedMesh& mesh);
 
-/// Defines and uniforms of secant.glsl.
+/// Defines and uniforms of secant.glsl. `eyeOffset`: of the solver's eye from the camera's, world space.
 gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMapSettings& map);
 void configureSecant(const gl::Program& program, const frame::Frame& frame, const SecantSettings& solver,
-                     const Reflector& reflector);
+                     const Reflector& reflector, glm::dvec3 eyeOffset = glm::dvec3(0.0));
 
 }  // namespace limen::techniques

@@ -113,7 +113,7 @@ class VertexReflection : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     ReflectionStatistics statistics;
     for (const Reflector& reflector : reflectors_) {
-      if (settings_.placement == Placement::VertexShader) solve(frame, reflector);
+      solveForCounting(frame, reflector);
       statistics.add(reflector, mesh_, frame, settings_.solver, reflector.reflected.read<glm::vec4>());
     }
     if (adaptive_) statistics.setTessellated(countTessellated(frame));
@@ -196,8 +196,23 @@ class VertexReflection : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  void solve(frame::Frame& frame, const Reflector& reflector) {
-    configureSecant(*solve_, frame, settings_.solver, reflector);
+  /// Vertex shaders keep nothing to be counted. A search from the previous frame is counted as if the eye had
+  /// been a hundredth of its distance aside then, whether or not the scene's camera moves.
+  void solveForCounting(frame::Frame& frame, const Reflector& reflector) {
+    if (settings_.solver.guess == reflections::FirstGuess::PreviousFrame) {
+      const glm::dvec3 towards = frame.camera().eye - reflector.centre.position;
+      const glm::dvec3 aside = glm::cross(towards, frame.camera().up);
+      const double length = glm::length(aside);
+      reflector.reflected.clearUint(0);
+      solve(frame, reflector, length > 0.0 ? 0.01 * glm::length(towards) / length * aside : aside);
+      solve(frame, reflector);
+    } else if (settings_.placement == Placement::VertexShader) {
+      solve(frame, reflector);
+    }
+  }
+
+  void solve(frame::Frame& frame, const Reflector& reflector, glm::dvec3 eyeOffset = glm::dvec3(0.0)) {
+    configureSecant(*solve_, frame, settings_.solver, reflector, eyeOffset);
     positions_->bindStorage(kReflectedPositionsBuffer);
     reflector.reflected.bindStorage(kReflectedVerticesBuffer);
     const auto [ownFirst, ownCount] = reflector.ownVertices;
