@@ -15,9 +15,9 @@ constexpr double kLeastStarCosine = 1e-4;
 
 }  // namespace
 
-std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                      const reflections::ReflectedMesh& reflected) {
-  std::vector<Reflector> out;
+std::vector<StarReflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
+                                          const reflections::ReflectedMesh& reflected) {
+  std::vector<StarReflector> out;
   for (const scene::Part& part : scene.parts) {
     if (part.triangleCount == 0 || !scene.materials[part.material].reflects()) continue;
     const scene::TriangleRange range{part.firstTriangle, part.triangleCount};
@@ -49,7 +49,7 @@ gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMap
 }
 
 void configureSecant(const gl::Program& program, const frame::Frame& frame, const SecantSettings& solver,
-                     const Reflector& reflector, glm::dvec3 eyeOffset) {
+                     const StarReflector& reflector, glm::dvec3 eyeOffset) {
   const glm::dvec3 centre = reflector.centre.position - frame.gpuScene().anchor();
   const double unit = reflector.centre.meanRadius;
   program.set("reflectorCentre", glm::vec3(centre));
