@@ -236,8 +236,8 @@ const RegisteredScene<MirrorContactSettings> kMirrorContact{
     buildMirrorContact};
 
 struct MirrorLayersSettings {
-  double gap = 0.02;
-  int cells = 1;
+  double gap = 0.005;
+  int cells = 32;
   static const SettingsTable<MirrorLayersSettings>& table() {
     using S = MirrorLayersSettings;
     static const SettingsTable<S> kTable = {
@@ -247,7 +247,8 @@ struct MirrorLayersSettings {
   }
 };
 
-/// A ball before a wall on which thin plates lie, much smaller than the wall's triangles.
+/// A ball before a wall on which thin plates lie, two triangles each: where the wall's are smaller, its path
+/// lengths are interpolated better, and it shows through the plates.
 Scene buildMirrorLayers(const MirrorLayersSettings& settings) {
   const glm::dvec3 centre(0.0, 0.5, 0.0);
   Scene scene;
@@ -259,17 +260,17 @@ Scene buildMirrorLayers(const MirrorLayersSettings& settings) {
   Mesh plates;
   for (const double across : {-0.6, 0.0, 0.6})
     for (const double up : {-0.5, 0.5})
-      append(plates, card(wall + glm::dvec3(across, 0.6 * up, -settings.gap), 0.15 * x, 0.15 * y));
+      append(plates, card(wall + glm::dvec3(across, 0.6 * up, -settings.gap), 0.25 * x, 0.35 * y));
   addPart(scene, "plates", plates, {0.8F, 0.6F, 0.1F});
   frameStanding(scene, 1.0, 1.0);
-  setStillCamera(scene, orbitCamera(centre, 3.6, 35.0, 35.0));
+  setStillCamera(scene, {{2.2, 0.9, 1.0}, {0.1, 0.5, 0.1}, {0.0, 1.0, 0.0}, 32.0});
   return scene;
 }
 
 const RegisteredScene<MirrorLayersSettings> kMirrorLayers{
     {.name = "mirrors/layers",
      .version = 1,
-     .summary = "Mirroring ball before a coarse wall with thin plates on it",
+     .summary = "Mirroring ball before a wall with thin coarse plates on it",
      .source = "stand-in for Roger 2008, Fig. 2.18"},
     buildMirrorLayers};
 

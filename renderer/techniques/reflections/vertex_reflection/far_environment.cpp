@@ -28,7 +28,7 @@ glm::mat4 anchorToFace(int face, glm::dvec3 centre, double nearest) {
 
 }  // namespace
 
-FarEnvironment::FarEnvironment(frame::Frame& frame, const Reflector& reflector,
+FarEnvironment::FarEnvironment(frame::Frame& frame, const StarReflector& reflector,
                                const FarSurroundings& settings, const frame::ShadedSetting& shading) {
   const int n = settings.resolution;
   glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &id_);

@@ -11,7 +11,7 @@ namespace limen::techniques {
 /// where nothing is.
 class FarEnvironment {
  public:
-  FarEnvironment(frame::Frame& frame, const Reflector& reflector, const FarSurroundings& settings,
+  FarEnvironment(frame::Frame& frame, const StarReflector& reflector, const FarSurroundings& settings,
                  const frame::ShadedSetting& shading);
   ~FarEnvironment();
   FarEnvironment(FarEnvironment&& other) noexcept : id_(std::exchange(other.id_, 0)), bytes_(other.bytes_) {}

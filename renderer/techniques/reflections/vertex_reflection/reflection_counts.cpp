@@ -32,7 +32,7 @@ std::optional<glm::dvec2> placeOf(glm::dvec3 fromAnchor, const frame::Frame& fra
 
 }  // namespace
 
-void ReflectionStatistics::add(const Reflector& reflector, const reflections::ReflectedMesh& mesh,
+void ReflectionStatistics::add(const StarReflector& reflector, const reflections::ReflectedMesh& mesh,
                                const frame::Frame& frame, const SecantSettings& settings,
                                const std::vector<glm::vec4>& reflected) {
   const uint32_t firstOwn = reflector.triangles.first * static_cast<uint32_t>(mesh.perTriangle);

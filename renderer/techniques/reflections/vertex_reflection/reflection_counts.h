@@ -18,7 +18,7 @@ class ReflectionStatistics {
  public:
   static constexpr int kTruths = 1000;
 
-  void add(const Reflector& reflector, const reflections::ReflectedMesh& mesh, const frame::Frame& frame,
+  void add(const StarReflector& reflector, const reflections::ReflectedMesh& mesh, const frame::Frame& frame,
            const SecantSettings& settings, const std::vector<glm::vec4>& reflected);
   void setTessellated(const ReflectionCounts& counts) { tessellated_ = counts; }
   std::vector<Counter> counters() const;

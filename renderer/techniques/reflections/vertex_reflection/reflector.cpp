@@ -15,9 +15,9 @@ constexpr double kLeastStarCosine = 1e-4;
 
 }  // namespace
 
-std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                      const reflections::ReflectedMesh& reflected) {
-  std::vector<Reflector> out;
+std::vector<StarReflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
+                                          const reflections::ReflectedMesh& reflected) {
+  std::vector<StarReflector> out;
   for (const scene::Part& part : scene.parts) {
     if (part.triangleCount == 0 || !scene.materials[part.material].reflects()) continue;
     const scene::TriangleRange range{part.firstTriangle, part.triangleCount};
@@ -49,13 +49,13 @@ gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMap
 }
 
 void configureSecant(const gl::Program& program, const frame::Frame& frame, const SecantSettings& solver,
-                     const Reflector& reflector) {
+                     const StarReflector& reflector, glm::dvec3 eyeOffset) {
   const glm::dvec3 centre = reflector.centre.position - frame.gpuScene().anchor();
   const double unit = reflector.centre.meanRadius;
   program.set("reflectorCentre", glm::vec3(centre));
   program.set("reflectorUnit", static_cast<float>(unit));
   program.set("mirrorSide", reflector.centre.inside ? -1.0F : 1.0F);
-  program.set("solverEye", glm::vec3((frame.camera().eye - reflector.centre.position) / unit));
+  program.set("solverEye", glm::vec3((frame.camera().eye + eyeOffset - reflector.centre.position) / unit));
   const glm::dmat4 fromUnits = glm::scale(glm::translate(glm::dmat4(1.0), centre), glm::dvec3(unit));
   program.set("reflectorToClip", glm::mat4(glm::dmat4(frame::anchorToClip(frame)) * fromUnits));
   program.set("halfSizePx", 0.5F * glm::vec2(frame.sizePx()));

@@ -14,7 +14,7 @@
 namespace limen::techniques {
 
 /// A part of the scene that reflects, ready for the solver.
-struct Reflector {
+struct StarReflector {
   scene::TriangleRange triangles;
   reflections::StarCentre centre;  ///< world space
   std::shared_ptr<const reflections::StarMesh> mesh;
@@ -25,12 +25,12 @@ struct Reflector {
 };
 
 /// One for each part whose material reflects. Throws Error if a part is not star-shaped.
-std::vector<Reflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                      const reflections::ReflectedMesh& mesh);
+std::vector<StarReflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
+                                          const reflections::ReflectedMesh& mesh);
 
-/// Defines and uniforms of secant.glsl.
+/// Defines and uniforms of secant.glsl. `eyeOffset`: of the solver's eye from the camera's, world space.
 gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMapSettings& map);
 void configureSecant(const gl::Program& program, const frame::Frame& frame, const SecantSettings& solver,
-                     const Reflector& reflector);
+                     const StarReflector& reflector, glm::dvec3 eyeOffset = glm::dvec3(0.0));
 
 }  // namespace limen::techniques

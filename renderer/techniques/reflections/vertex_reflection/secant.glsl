@@ -191,7 +191,7 @@ vec4 reflectedVertex(vec3 position, vec4 previous) {
   uint iterations = 0u, exchanges = 0u, flags = 0u;
   bool converged = false;
   vec3 first, second, third;
-#if GUESS == GUESS_FACING_EYE
+#if GUESS != GUESS_PROJECTIONS
   triangleAround(unitOr(mirrorSide * solverEye, vec3(0.0, 0.0, 1.0)), 10.0 * leastSide, first, second, third);
 #else
   projections(vertex, first, second, third);

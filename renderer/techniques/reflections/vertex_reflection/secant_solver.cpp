@@ -97,7 +97,7 @@ class Solver {
   std::array<glm::dvec3, 3> firstDirections(std::optional<glm::dvec3> previous) const {
     if (settings_.guess == FirstGuess::PreviousFrame && previous && glm::length(*previous) > 0.0)
       return triangleAround(glm::normalize(*previous), settings_.leastSide);
-    if (settings_.guess == FirstGuess::FacingEye)
+    if (settings_.guess != FirstGuess::Projections)
       return triangleAround(unitOr(inside_ ? -eye_ : eye_, {0.0, 0.0, 1.0}), 10.0 * settings_.leastSide);
     return projections(eye_, vertex_, settings_.leastSide);
   }

@@ -35,7 +35,7 @@ constexpr EnumNames<StopMeasure, 2> enumNames(StopMeasure) {
 enum class FirstGuess {
   Projections,   ///< radial projections of vertex and eye, and the third corner of an equilateral triangle
   FacingEye,     ///< a triangle in the middle of the side that the eye sees, whatever the vertex
-  PreviousFrame  ///< a small triangle around the point found before; Projections where there was none
+  PreviousFrame  ///< a small triangle around the point found before; FacingEye where there was none
 };
 constexpr EnumNames<FirstGuess, 3> enumNames(FirstGuess) {
   return {{{{FirstGuess::Projections, "projections"},

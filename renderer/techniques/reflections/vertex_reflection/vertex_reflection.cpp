@@ -59,7 +59,7 @@ class VertexReflection : public Technique {
     sources_.emplace(mesh_.sources);
     reflectors_ = makeReflectors(frame.scene(), settings_.map, mesh_);
     ranges_.clear();
-    for (const Reflector& reflector : reflectors_) {
+    for (const StarReflector& reflector : reflectors_) {
       ranges_.push_back(std::make_unique<frame::TriangleRanges>(1));
       ranges_.back()->set({reflector.triangles});
     }
@@ -72,7 +72,7 @@ class VertexReflection : public Technique {
     backs_.emplace(gl::Format::Depth32F, frame.sizePx());
     backTarget_ = std::make_unique<gl::Framebuffer>(std::vector<const gl::Texture*>{}, &*backs_);
     int64_t solved = positions_->bytes();
-    for (const Reflector& reflector : reflectors_)
+    for (const StarReflector& reflector : reflectors_)
       solved += reflector.reflected.bytes() + reflector.map.bytes();
     if (settings_.placement == Placement::Compute) frame.passes().setBytesHeld(kSolvePass, solved);
     if (settings_.hideBehindBacks) frame.passes().setBytesHeld(kBacksPass, backs_->bytes());
@@ -100,7 +100,7 @@ class VertexReflection : public Technique {
       backs_->bindTexture(kReflectorBacksUnit);
       ids.bindTexture(kReflectorIdsUnit);
       sources_->bindStorage(kReflectedSourcesBuffer);
-      for (const Reflector& reflector : reflectors_) drawReflected(frame, *draw_, reflector);
+      for (const StarReflector& reflector : reflectors_) drawReflected(frame, *draw_, reflector);
       glDisable(GL_DEPTH_TEST);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
@@ -112,8 +112,8 @@ class VertexReflection : public Technique {
 
   std::vector<Counter> count(frame::Frame& frame) override {
     ReflectionStatistics statistics;
-    for (const Reflector& reflector : reflectors_) {
-      if (settings_.placement == Placement::VertexShader) solve(frame, reflector);
+    for (const StarReflector& reflector : reflectors_) {
+      solveForCounting(frame, reflector);
       statistics.add(reflector, mesh_, frame, settings_.solver, reflector.reflected.read<glm::vec4>());
     }
     if (adaptive_) statistics.setTessellated(countTessellated(frame));
@@ -122,7 +122,7 @@ class VertexReflection : public Technique {
 
   std::vector<std::string> remarks() const override {
     std::vector<std::string> out;
-    for (const Reflector& reflector : reflectors_)
+    for (const StarReflector& reflector : reflectors_)
       if (reflector.filledShare > 0.0)
         out.push_back("A mirror is open: " + std::to_string(static_cast<int>(100.0 * reflector.filledShare)) +
                       " % of its map's texels were filled from their neighbours.");
@@ -172,7 +172,7 @@ class VertexReflection : public Technique {
     farProgram_ = &frame.context().programs().compute(kVertexReflectionFolder + "far_environment.comp.glsl");
     environments_.clear();
     int64_t bytes = 0;
-    for (const Reflector& reflector : reflectors_) {
+    for (const StarReflector& reflector : reflectors_) {
       environments_.emplace_back(frame, reflector, *far_, settings_.shading);
       bytes += environments_.back().bytes();
     }
@@ -196,8 +196,23 @@ class VertexReflection : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  void solve(frame::Frame& frame, const Reflector& reflector) {
-    configureSecant(*solve_, frame, settings_.solver, reflector);
+  /// Vertex shaders keep nothing to be counted. A search from the previous frame is counted as if the eye had
+  /// been a hundredth of its distance aside then, whether or not the scene's camera moves.
+  void solveForCounting(frame::Frame& frame, const StarReflector& reflector) {
+    if (settings_.solver.guess == reflections::FirstGuess::PreviousFrame) {
+      const glm::dvec3 towards = frame.camera().eye - reflector.centre.position;
+      const glm::dvec3 aside = glm::cross(towards, frame.camera().up);
+      const double length = glm::length(aside);
+      reflector.reflected.clearUint(0);
+      solve(frame, reflector, length > 0.0 ? 0.01 * glm::length(towards) / length * aside : aside);
+      solve(frame, reflector);
+    } else if (settings_.placement == Placement::VertexShader) {
+      solve(frame, reflector);
+    }
+  }
+
+  void solve(frame::Frame& frame, const StarReflector& reflector, glm::dvec3 eyeOffset = glm::dvec3(0.0)) {
+    configureSecant(*solve_, frame, settings_.solver, reflector, eyeOffset);
     positions_->bindStorage(kReflectedPositionsBuffer);
     reflector.reflected.bindStorage(kReflectedVerticesBuffer);
     const auto [ownFirst, ownCount] = reflector.ownVertices;
@@ -217,7 +232,7 @@ class VertexReflection : public Technique {
 
   void solveVertices(frame::Frame& frame) {
     const auto scope = frame.passes().open(kSolvePass);
-    for (const Reflector& reflector : reflectors_) solve(frame, reflector);
+    for (const StarReflector& reflector : reflectors_) solve(frame, reflector);
   }
 
   void drawBacks(frame::Frame& frame) {
@@ -237,7 +252,7 @@ class VertexReflection : public Technique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
-  void drawReflected(frame::Frame& frame, const gl::Program& program, const Reflector& reflector) {
+  void drawReflected(frame::Frame& frame, const gl::Program& program, const StarReflector& reflector) {
     configureSecant(program, frame, settings_.solver, reflector);
     program.set("anchorToClip", frame::anchorToClip(frame));
     program.set("reflectorFirst", reflector.triangles.first);
@@ -284,7 +299,7 @@ class VertexReflection : public Technique {
     counts.clearUint(0);
     glEnable(GL_RASTERIZER_DISCARD);
     counts.bindStorage(kReflectionCountsBuffer);
-    for (const Reflector& reflector : reflectors_) drawReflected(frame, *countDraw_, reflector);
+    for (const StarReflector& reflector : reflectors_) drawReflected(frame, *countDraw_, reflector);
     glDisable(GL_RASTERIZER_DISCARD);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     return counts.read<ReflectionCounts>().at(0);
@@ -298,7 +313,7 @@ class VertexReflection : public Technique {
   ReflectionPicture picture_;
   reflections::ReflectedMesh mesh_;
   std::optional<gl::Buffer> positions_, indices_, sources_;
-  std::vector<Reflector> reflectors_;
+  std::vector<StarReflector> reflectors_;
   std::vector<std::unique_ptr<frame::TriangleRanges>> ranges_;
   uint32_t vertexArray_ = 0;
   const gl::Program *solve_ = nullptr, *draw_ = nullptr, *countDraw_ = nullptr, *backProgram_ = nullptr;
