@@ -123,6 +123,9 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
   if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
+  if (scene.items)
+    out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
+        out.value(scene.items->buckets);
   if (scene.cage) feedCage(out, *scene.cage);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
@@ -196,6 +199,7 @@ std::set<std::string> Scene::traits() const {
   if (!nurbs.empty()) out.insert("nurbs");
   if (surfaces.motion.moves()) out.insert("moving_surfaces");
   if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
+  if (items) out.insert("item_stream");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];

@@ -13,6 +13,7 @@
 #include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
 #include "experiments/base/settings_table.h"
+#include "renderer/scene/item_stream.h"
 #include "renderer/scene/material.h"
 #include "renderer/surfaces/nurbs.h"
 #include "renderer/surfaces/patch_set.h"
@@ -164,7 +165,8 @@ struct Scene {
   /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
   /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
-  Mesh coarser;  ///< all other levels; its triangles index its own vertices
+  Mesh coarser;                     ///< all other levels; its triangles index its own vertices
+  std::optional<ItemStream> items;  ///< for techniques of streams, which render nothing
 
   Bounds bounds() const;        ///< of all finite positions
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
@@ -175,8 +177,8 @@ struct Scene {
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
   /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
-  /// "nurbs", "subdivision_cage", "trimmed_surfaces", "moving_surfaces"; of its parts' materials "mirrors"
-  /// (any that reflect), "glossy_materials", "refractive_materials".
+  /// "nurbs", "subdivision_cage", "trimmed_surfaces", "moving_surfaces", "item_stream"; of its parts' materials
+  /// "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
 

@@ -102,8 +102,10 @@ void main() {
   const uint at = group * uint(kTraversalGroup) + gl_LocalInvocationIndex;
 #ifdef FINISH
   const bool present = at < control.previousInputs;
-#else
+#elif defined(SPARSE)
   const bool present = at < min(control.inputs, capacity);
+#else
+  const bool present = at < control.inputs;
 #endif
   const uvec2 pair = present ? pairs[at] : uvec2(0u);
   // Pairs of the last level are resolved elsewhere.

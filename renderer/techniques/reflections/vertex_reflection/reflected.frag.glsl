@@ -50,5 +50,5 @@ void main() {
 #endif
   const vec3 towards = reflectedPosition - from;
   const vec3 direction = dot(towards, towards) > 0.0 ? normalize(towards) : vec3(0.0, -1.0, 0.0);
-  colour = vec4(pointColour(surfaceHit(id, weights, direction), 1.0), fade);
+  colour = vec4(fade * pointColour(surfaceHit(id, weights, direction), 1.0), fade);
 }

@@ -63,7 +63,8 @@ void configureSecant(const gl::Program& program, const frame::Frame& frame, cons
   program.set("determinantShare", static_cast<float>(solver.determinantShare));
   program.set("leastSide", static_cast<float>(solver.leastSide));
   program.set("falseRootLength", static_cast<float>(solver.falseRootLength));
-  reflector.map.bindTexture(kReflectorMapUnit);
+  reflector.map.bindTextures(kReflectorMapUnit, kReflectorPresentUnit);
+  program.set("openMirror", reflector.filledShare > 0.0 ? 1 : 0);
 }
 
 }  // namespace limen::techniques

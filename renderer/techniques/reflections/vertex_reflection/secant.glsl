@@ -10,6 +10,13 @@ layout(binding = kReflectorMapUnit) uniform sampler2D reflectorMap;
 layout(binding = kReflectorMapUnit) uniform samplerCube reflectorMap;
 #endif
 
+#ifdef MAP_LAT_LONG
+layout(binding = kReflectorPresentUnit) uniform sampler2D reflectorPresent;
+#else
+layout(binding = kReflectorPresentUnit) uniform samplerCube reflectorPresent;
+#endif
+
+uniform int openMirror;  // 1: its map was filled where the surface ends
 uniform vec3 reflectorCentre;  // relative to the scene's anchor
 uniform float reflectorUnit;   // mean radius
 uniform float mirrorSide;      // 1: the mirror faces outward; -1: inward
@@ -23,19 +30,34 @@ struct PathSample {
   float length;
 };
 
-// Radius and its gradient.
-vec4 radialPoint(vec3 u) {
-#ifdef MAP_LAT_LONG
-  const float kPi = 3.14159265358979;
-  return textureLod(reflectorMap, vec2(atan(u.y, u.x) / (2.0 * kPi), acos(clamp(u.z, -1.0, 1.0)) / kPi), 0.0);
-#else
-  return textureLod(reflectorMap, u, 0.0);
-#endif
-}
-
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float reach = max(abs(v.x), max(abs(v.y), abs(v.z)));
   return reach > 1e-30 && reach < 1e30 ? normalize(v / reach) : otherwise;
+}
+
+#ifdef MAP_LAT_LONG
+vec2 mapPlace(vec3 u) {
+  const float kPi = 3.14159265358979;
+  return vec2(atan(u.y, u.x) / (2.0 * kPi), acos(clamp(u.z, -1.0, 1.0)) / kPi);
+}
+#else
+vec3 mapPlace(vec3 u) { return u; }
+#endif
+
+// Radius and its gradient.
+vec4 radialPoint(vec3 u) { return textureLod(reflectorMap, mapPlace(u), 0.0); }
+
+// Whether an open mirror, seen from within, lies between its point and a vertex: where the segment leaves the surface
+// continued, is there surface?
+bool behindOwnWall(vec3 point, vec3 vertex) {
+  const int kSteps = 16;
+  for (int i = 1; i <= kSteps; ++i) {
+    const vec3 at = mix(point, vertex, float(i) / float(kSteps));
+    const vec3 u = unitOr(at, vec3(0.0, 0.0, 1.0));
+    // The first steps are along the surface.
+    if (dot(at, u) > radialPoint(u).x * 1.001) return textureLod(reflectorPresent, mapPlace(u), 0.0).x > 0.5;
+  }
+  return false;
 }
 
 vec3 anyTangent(vec3 u) { return normalize(cross(u, abs(u.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))); }
@@ -158,6 +180,7 @@ uint outcomeOf(PathSample found, vec3 vertex, bool converged) {
   const vec3 toEye = solverEye - found.point, toVertex = vertex - found.point;
   if (length(unitOr(toEye, vec3(0.0)) + unitOr(toVertex, vec3(0.0))) < falseRootLength) return kOutcomeFalseRoot;
   if (!(dot(normal, toEye) > 0.0) || !(dot(normal, toVertex) >= 0.0)) return kOutcomeFacingAway;
+  if (openMirror != 0 && mirrorSide < 0.0 && behindOwnWall(found.point, vertex)) return kOutcomeFacingAway;
   return converged ? kOutcomeFound : kOutcomeUnconverged;
 }
 

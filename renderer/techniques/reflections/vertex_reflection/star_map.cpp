@@ -61,7 +61,7 @@ glm::dvec3 texelDirection(MapLayout layout, int resolution, int layer, int x, in
 }
 
 StarMap bakeStarMap(const StarSurface& surface, MapLayout layout, int resolution, double unit) {
-  StarMap map{.layout = layout, .resolution = resolution, .texels = {}, .unit = unit};
+  StarMap map{.layout = layout, .resolution = resolution, .texels = {}, .unit = unit, .present = {}};
   size_t empty = 0;
   for (int layer = 0; layer < map.layers(); ++layer)
     for (int y = 0; y < resolution; ++y)
@@ -69,6 +69,7 @@ StarMap bakeStarMap(const StarSurface& surface, MapLayout layout, int resolution
         RadialPoint at = surface(texelDirection(layout, resolution, layer, x, y));
         at.radius /= unit;
         if (!(at.radius > 0.0)) ++empty, at = {};
+        map.present.push_back(at.radius > 0.0 ? 255 : 0);
         map.texels.push_back(at);
       }
   map.filledShare = double(empty) / double(map.texels.size());

@@ -20,10 +20,11 @@ constexpr EnumNames<MapLayout, 2> enumNames(MapLayout) {
 /// A star-shaped surface sampled at the middles of texels (Roger 2008, section 2.2.1, Fig. 2.3).
 struct StarMap {
   MapLayout layout = MapLayout::Cube;
-  int resolution = 0;               ///< texels along a side
-  std::vector<RadialPoint> texels;  ///< faces in the order of CubePlace, rows within; radii over `unit`
-  double unit = 1.0;                ///< what radii are divided by
-  double filledShare = 0.0;         ///< texels that the surface does not reach
+  int resolution = 0;                 ///< texels along a side
+  std::vector<RadialPoint> texels;    ///< faces in the order of CubePlace, rows within; radii over `unit`
+  double unit = 1.0;                  ///< what radii are divided by
+  std::vector<uint8_t> present = {};  ///< 0 where filled from neighbours
+  double filledShare = 0.0;           ///< texels that the surface does not reach
 
   int layers() const { return layout == MapLayout::Cube ? 6 : 1; }
 };

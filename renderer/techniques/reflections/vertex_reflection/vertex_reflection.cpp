@@ -18,7 +18,9 @@
 #include <optional>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/mirror_rays.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
+#include "renderer/techniques/reflections/vertex_reflection/far_environment.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflected_mesh.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflection_counts.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflector.h"
@@ -31,6 +33,7 @@ namespace {
 const std::string kVertexReflectionFolder = "renderer/techniques/reflections/vertex_reflection/";
 constexpr const char* kSolvePass = "reflections/solve_vertices";
 constexpr const char* kBacksPass = "reflections/back_faces";
+constexpr const char* kFarPass = "reflections/far_environment";
 constexpr const char* kDrawPass = "reflections/draw_reflected";
 constexpr int kMostGroups = 65535;  // in a dimension
 /// llvmpipe (Mesa 22.3) draws wrong triangles if one draw evaluates more vertices.
@@ -41,6 +44,7 @@ class VertexReflection : public Technique {
   using Settings = VertexReflectionSettings;
   explicit VertexReflection(const Settings& settings) : settings_(settings), picture_(settings.shading) {
     adaptive_ = std::get_if<AdaptiveSegments>(&settings_.tessellation);
+    far_ = std::get_if<FarSurroundings>(&settings_.surroundings);
   }
   ~VertexReflection() override {
     if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
@@ -61,6 +65,7 @@ class VertexReflection : public Technique {
     }
     makeVertexArray();
     compile(frame);
+    prepareFar(frame);
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
     depth_.emplace(gl::Format::Depth32F, frame.sizePx());
     target_ = std::make_unique<gl::Framebuffer>(std::vector<const gl::Texture*>{&*reflected_}, &*depth_);
@@ -99,6 +104,7 @@ class VertexReflection : public Technique {
       glDisable(GL_DEPTH_TEST);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
+    if (far_) addFar(frame);
     picture_.compose(frame, *reflected_);
   }
 
@@ -161,6 +167,35 @@ class VertexReflection : public Technique {
     draw_ = &programs.get(stages, defines);
   }
 
+  void prepareFar(frame::Frame& frame) {
+    if (!far_) return;
+    farProgram_ = &frame.context().programs().compute(kVertexReflectionFolder + "far_environment.comp.glsl");
+    environments_.clear();
+    int64_t bytes = 0;
+    for (const Reflector& reflector : reflectors_) {
+      environments_.emplace_back(frame, reflector, *far_, settings_.shading);
+      bytes += environments_.back().bytes();
+    }
+    frame.passes().setBytesHeld(kFarPass, bytes);
+  }
+
+  void addFar(frame::Frame& frame) {
+    const gl::Texture& directions = frame.get<frame::MirrorRays>().directions();
+    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    const auto scope = frame.passes().open(kFarPass);
+    directions.bindTexture(kFarDirectionsUnit);
+    ids.bindTexture(kReflectorIdsUnit);
+    reflected_->bindImage(kFarImage, gl::Access::ReadWrite);
+    farProgram_->set("sizePx", frame.sizePx());
+    for (size_t i = 0; i < reflectors_.size(); ++i) {
+      farProgram_->set("reflectorFirst", reflectors_[i].triangles.first);
+      farProgram_->set("reflectorCount", reflectors_[i].triangles.count);
+      environments_[i].bindTexture(kFarEnvironmentUnit);
+      farProgram_->dispatch(frame.sizePx());
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
   void solve(frame::Frame& frame, const Reflector& reflector) {
     configureSecant(*solve_, frame, settings_.solver, reflector);
     positions_->bindStorage(kReflectedPositionsBuffer);
@@ -210,7 +245,10 @@ class VertexReflection : public Technique {
     // No point of the scene is farther from the mirror than its bounds are wide.
     program.set("farthest", static_cast<float>(std::max(frame.gpuScene().diagonal(), 1e-30)));
     program.set("backSlack", static_cast<float>(settings_.backSlack));
-    program.set("farFade", glm::vec2(0.0F));
+    const double start = far_ ? far_->distance * reflector.centre.meanRadius : 0.0;
+    program.set("farFade",
+                far_ ? glm::vec2(glm::dvec2(start, start * (1.0 + far_->blend))) : glm::vec2(0.0F));
+    program.set("fadeCentre", glm::vec3(reflector.centre.position - frame.gpuScene().anchor()));
     if (adaptive_) {
       program.set("tolerancePx", static_cast<float>(adaptive_->tolerancePx));
       program.set("mostSegments", adaptive_->most);
@@ -254,6 +292,9 @@ class VertexReflection : public Technique {
 
   Settings settings_;
   const AdaptiveSegments* adaptive_ = nullptr;
+  const FarSurroundings* far_ = nullptr;
+  std::vector<FarEnvironment> environments_;
+  const gl::Program* farProgram_ = nullptr;
   ReflectionPicture picture_;
   reflections::ReflectedMesh mesh_;
   std::optional<gl::Buffer> positions_, indices_, sources_;

@@ -14,7 +14,7 @@ const uint kReflectorBacksUnit = 1u;  // depth of the reflectors' back faces
 const uint kReflectorIdsUnit = 2u;    // triangles that pixels see
 const uint kFarDirectionsUnit = 3u;   // of mirrored rays
 const uint kFarEnvironmentUnit = 4u;
-const uint kFarOriginsUnit = 5u;
+const uint kReflectorPresentUnit = 5u;  // of open mirrors: where they are
 const uint kFarImage = 0u;
 
 // Of a vertex of the reflected mesh: reflection point relative to the scene's anchor, and the status.

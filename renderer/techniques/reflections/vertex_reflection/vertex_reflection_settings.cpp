@@ -99,6 +99,20 @@ const SettingsTable<AdaptiveSegments>& AdaptiveSegments::table() {
   return kTable;
 }
 
+const SettingsTable<FarSurroundings>& FarSurroundings::table() {
+  using S = FarSurroundings;
+  static const SettingsTable<S> kTable = {
+      {&S::distance,
+       "distance",
+       {1.0, 1000.0},
+       "radii",
+       "From the mirror's centre at which the map begins to replace vertices",
+       "Roger 2008, section 2.4 (not given there)"},
+      {&S::blend, "blend", {0.001, 10.0}, "", "Width of the passage from vertices to map, over the distance"},
+      {&S::resolution, "resolution", {2, 2048}, "texel", "Side of a face of the map"}};
+  return kTable;
+}
+
 const SettingsTable<VertexReflectionSettings>& VertexReflectionSettings::table() {
   using S = VertexReflectionSettings;
   static const SettingsTable<S> kTable = {
@@ -106,6 +120,7 @@ const SettingsTable<VertexReflectionSettings>& VertexReflectionSettings::table()
       {&S::map, "map", "Map of the reflector"},
       {&S::solver, "solver", "Search for the reflection point"},
       {&S::tessellation, "tessellation", "How the reflected scene is divided"},
+      {&S::surroundings, "surroundings", "What far parts of the scene are reflected by"},
       {&S::invalid, "invalid", "What becomes of triangles with a corner that has no reflection",
        "not given in Roger 2008"},
       {&S::depth, "depth", "Depth of reflected fragments", "Roger 2008, section 2.2.3"},

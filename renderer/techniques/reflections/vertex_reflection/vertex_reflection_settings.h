@@ -88,11 +88,23 @@ struct AdaptiveSegments {
   static const SettingsTable<AdaptiveSegments>& table();
 };
 
+struct NoSurroundings {
+  static constexpr const char *kKind = "none", *kSummary = "all of the scene is reflected vertex by vertex";
+};
+struct FarSurroundings {
+  static constexpr const char *kKind = "environment",
+                              *kSummary = "beyond a distance the scene comes from an environment map";
+  double distance = 4.0, blend = 0.25;
+  int resolution = 256;
+  static const SettingsTable<FarSurroundings>& table();
+};
+
 struct VertexReflectionSettings {
   Placement placement = Placement::Compute;
   ReflectorMapSettings map;
   SecantSettings solver;
   std::variant<EvenSegments, AdaptiveSegments> tessellation = AdaptiveSegments{};
+  std::variant<NoSurroundings, FarSurroundings> surroundings;
   InvalidPolicy invalid = InvalidPolicy::Subdivide;
   PathDepth depth = PathDepth::Vertices;
   bool hideBehindBacks = true;
