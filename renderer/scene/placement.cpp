@@ -36,8 +36,10 @@ void mapWorld(Scene& scene, Map map) {
                          point.w);
   };
   mapPoints(scene.surfaces.points);
-  if (scene.cage)
-    for (glm::dvec3& point : scene.cage->points) point = map(point);
+  for (surfaces::SubdivisionSurface& surface : scene.subdivisions) {
+    for (glm::dvec3& point : surface.cage.points) point = map(point);
+    for (surfaces::Joint& joint : surface.joints) joint.pivot = map(joint.pivot);
+  }
   for (NurbsPart& part : scene.nurbs) mapPoints(part.surface.points);
   for (const auto member : {&surfaces::PatchMotion::sine, &surfaces::PatchMotion::cosine})
     for (glm::dvec3& vector : scene.surfaces.motion.*member) vector = map(vector) - map(glm::dvec3(0.0));

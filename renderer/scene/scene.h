@@ -17,7 +17,7 @@
 #include "renderer/scene/material.h"
 #include "renderer/surfaces/nurbs.h"
 #include "renderer/surfaces/patch_set.h"
-#include "renderer/surfaces/polygon_mesh.h"
+#include "renderer/surfaces/subdivision_surface.h"
 
 namespace limen::scene {
 
@@ -159,9 +159,9 @@ struct Scene {
   /// triangles alone render the scene as well.
   surfaces::PatchSet surfaces;
   std::vector<NurbsPart> nurbs;  ///< that some of `surfaces` come from
-  /// Of a subdivision surface; a part of `mesh` shows it.
-  std::optional<surfaces::PolygonMesh> cage;
-  uint32_t cagePart = 0;
+  /// Control meshes of subdivision surfaces. `mesh`, and `surfaces` if it has any of their part, hold what
+  /// stands in for them.
+  std::vector<surfaces::SubdivisionSurface> subdivisions;
   /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
   /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
@@ -177,8 +177,8 @@ struct Scene {
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
   /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
-  /// "nurbs", "subdivision_cage", "trimmed_surfaces", "moving_surfaces", "item_stream"; of its parts' materials
-  /// "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
+  /// "nurbs", "subdivision_surfaces", "trimmed_surfaces", "moving_surfaces", "item_stream"; of its parts'
+  /// materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
 

@@ -186,11 +186,12 @@ class SampledSubdivision : public Technique {
   explicit SampledSubdivision(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    cage_ = *frame.scene().cage;
+    const surfaces::SubdivisionSurface& surface = frame.scene().subdivisions.at(0);
+    cage_ = surface.cage;
     if (settings_.scheme == SubdivisionScheme::Loop) cage_ = inTriangles(std::move(cage_));
     mesh_ = made();
     const glm::dvec3 anchor = frame.gpuScene().anchor();
-    const uint32_t material = frame.scene().parts[frame.scene().cagePart].material;
+    const uint32_t material = frame.scene().parts[surface.part].material;
     std::vector<TessellatedVertex> vertices;
     for (const LimitSample& sample : mesh_.samples)
       vertices.push_back(
@@ -269,7 +270,7 @@ const RegisteredTechnique<SampledSubdivision> kSampledSubdivisionRegistered{
          "Bolz and Schröder 2002; Schaefer and Warren 2007; Stam 1998; Schwarz 2009, section 6.1.5 (SC-19 to "
          "SC-21)",
      .product = ProductKind::Colour,
-     .needs = {"subdivision_cage"},
+     .needs = {"subdivision_surfaces"},
      .counters = {{"limit_samples", "Limit points made", "points", Direction::Neither},
                   {"limit_error_of_diagonal", "Distance from points by direct evaluation, largest", "",
                    Direction::LowerIsBetter},

@@ -17,11 +17,11 @@ constexpr EnumNames<CageShape, 4> enumNames(CageShape) {
             {CageShape::DoubleTorus, "double_torus"}}}};
 }
 
-struct CageSettings {
+struct SharpCageSettings {
   CageShape shape = CageShape::DoubleTorus;
   int steps = 4;
-  static const SettingsTable<CageSettings>& table() {
-    using S = CageSettings;
+  static const SettingsTable<SharpCageSettings>& table() {
+    using S = SharpCageSettings;
     static const SettingsTable<S> kTable = {
         {&S::shape, "shape",
          "Two joined rings of 48 quads; or a block of 6, whose vertices have valence 3: smooth, with sharp "
@@ -57,7 +57,7 @@ void sharpen(surfaces::PolygonMesh& mesh, bool corners) {
   if (corners) edge(0, 2), edge(5, 7);
 }
 
-surfaces::PolygonMesh cageOf(CageShape shape) {
+surfaces::PolygonMesh sharpCageOf(CageShape shape) {
   surfaces::PolygonMesh mesh;
   if (shape == CageShape::DoubleTorus) {
     mesh = doubleTorusCage();
@@ -69,8 +69,8 @@ surfaces::PolygonMesh cageOf(CageShape shape) {
   return mesh;
 }
 
-Scene buildCage(const CageSettings& settings) {
-  surfaces::PolygonMesh cage = cageOf(settings.shape);
+Scene buildSharpCage(const SharpCageSettings& settings) {
+  surfaces::PolygonMesh cage = sharpCageOf(settings.shape);
   Bounds bounds;
   for (const glm::dvec3& p : cage.points) bounds.extend(p);
   const double scale = 1.0 / (bounds.high.y - bounds.low.y);
@@ -91,19 +91,22 @@ Scene buildCage(const CageSettings& settings) {
   Scene scene;
   const double reach = scale * std::max(bounds.high.x, bounds.high.z);
   addGround(scene, 8.0 * reach);
-  scene.cagePart = static_cast<uint32_t>(scene.parts.size());
+  surfaces::SubdivisionSurface surface;
+  surface.cage = std::move(cage);
+  surface.scheme = surfaces::SubdivisionScheme::CatmullClark;
+  surface.part = static_cast<uint32_t>(scene.parts.size());
   addPart(scene, "surface", mesh, {0.62F, 0.58F, 0.66F});
-  scene.cage = std::move(cage);
+  scene.subdivisions.push_back(std::move(surface));
   frameStanding(scene, 1.0, reach);
   return scene;
 }
 
-const RegisteredScene<CageSettings> kCage{
-    {.name = "curved/cage",
+const RegisteredScene<SharpCageSettings> kSharpCage{
+    {.name = "curved/sharp_cage",
      .version = 1,
      .summary = "Subdivision surface of a control cage, smooth or with creases and corners",
      .source = "Schwarz 2009, section 6.1.5"},
-    buildCage};
+    buildSharpCage};
 
 }  // namespace
 }  // namespace limen::scene
