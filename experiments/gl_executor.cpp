@@ -24,7 +24,6 @@
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/gl/devices.h"
-#include "renderer/surfaces/tessellated_surface.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -271,8 +270,7 @@ class GlExecutor : public Executor {
       std::shared_ptr<const surfaces::TessellatedSurface> tessellation;
       if (needsTessellation(plan)) tessellation = run.technique->tessellation(*run.frame);
       evaluated.tessellation = tessellation.get();
-      evaluated.patches =
-          tessellation && tessellation->moved ? tessellation->moved.get() : &on.onGpu.scene.surfaces;
+      evaluated.patches = &on.onGpu.scene.surfaces;
       evaluated.wantsPictures = plan.artefacts.pictures;
       evaluated.wantsLight = plan.artefacts.exr;
       for (store::Measurement& measurement : evaluate(plan, evaluated, shown))

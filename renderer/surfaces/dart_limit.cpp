@@ -7,15 +7,19 @@ namespace {
 using glm::dvec3;
 
 /// The ring shrinks by about a half in each step. Positions are kept relative to the vertex, so that the
-/// ring's shape does not drown in rounding: of it, what is not tangent shrinks faster, by 0.46 / 0.5 at least
-/// (valence 7).
+/// ring's shape does not drown in rounding.
 constexpr int kSteps = 100;
 
-dvec3 fanNormal(dvec3 vertex, const std::vector<dvec3>& edges) {
-  dvec3 out(0.0);
-  for (size_t i = 0; i < edges.size(); ++i)
-    out += glm::cross(edges[i] - vertex, edges[(i + 1) % edges.size()] - vertex);
-  return out;
+/// Replaced by that of the ring around the origin, unless the ring has become a line but for rounding: one
+/// tangent may shrink faster than the other.
+void takeNormal(const std::vector<dvec3>& edges, dvec3& normal) {
+  dvec3 area(0.0);
+  double size = 0.0;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    area += glm::cross(edges[i], edges[(i + 1) % edges.size()]);
+    size += glm::dot(edges[i], edges[i]);
+  }
+  if (glm::length(area) > 1e-9 * size) normal = area / size;
 }
 
 /// Into coordinates whose origin, `origin`, is the vertex.
@@ -34,6 +38,7 @@ DartLimit catmullClarkDart(dvec3 vertex, std::vector<dvec3> edges, std::vector<d
   DartLimit out{};
   for (int step = 0; step < kSteps; ++step) {
     moveToVertex(vertex, out.point, edges, diagonals);
+    takeNormal(edges, out.normal);
     std::vector<dvec3> faces(n), ends(n);
     dvec3 edgeSum(0.0), faceSum(0.0);
     for (size_t i = 0; i < n; ++i) {
@@ -48,7 +53,6 @@ DartLimit catmullClarkDart(dvec3 vertex, std::vector<dvec3> edges, std::vector<d
     edges = std::move(ends), diagonals = std::move(faces);
   }
   out.point += vertex;
-  out.normal = fanNormal(vertex, edges);
   return out;
 }
 
@@ -58,6 +62,7 @@ DartLimit loopDart(dvec3 vertex, std::vector<dvec3> edges, double own, size_t sh
   DartLimit out{};
   for (int step = 0; step < kSteps; ++step) {
     moveToVertex(vertex, out.point, edges, none);
+    takeNormal(edges, out.normal);
     std::vector<dvec3> ends(n);
     dvec3 sum(0.0);
     for (size_t i = 0; i < n; ++i) {
@@ -69,7 +74,6 @@ DartLimit loopDart(dvec3 vertex, std::vector<dvec3> edges, double own, size_t sh
     edges = std::move(ends);
   }
   out.point += vertex;
-  out.normal = fanNormal(vertex, edges);
   return out;
 }
 

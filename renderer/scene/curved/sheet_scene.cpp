@@ -149,10 +149,10 @@ surfaces::PatchSet flag(const FlagSettings& settings) {
 
 Scene buildFlag(const FlagSettings& settings) {
   Scene scene;
-  addGround(scene, 8.0);
+  addGround(scene, 9.0);
   addSurface(scene, "flag", flag(settings), settings.tessellation, {0.72F, 0.5F, 0.42F});
   frameStanding(scene, 1.0, 0.6);
-  setStillCamera(scene, orbitCamera({0.0, 0.6, 0.0}, 2.3, 25.0, 15.0));
+  setStillCamera(scene, orbitCamera({0.0, 0.55, 0.0}, 2.3, 25.0, 36.0));
   return scene;
 }
 

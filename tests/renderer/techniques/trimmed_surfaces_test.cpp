@@ -74,17 +74,14 @@ double countingError() { return 4.0 * std::sqrt(2.0 * 2.0 * kLength / kPixel) * 
 
 TEST_F(TrimmedSurfaces, TheAreaInAPictureIsThatOfTheCircles) {
   const scene::Scene scene = plateScene();
-  for (const char* form : {"vertex_parallel", "patch_parallel", "four_threads"}) {
-    const Rendered made =
-        render(scene, "tessellation/compute", {{"form", std::string(form)}}, {kSide, kSide}, true);
-    const double area = double(countOf(covered(made.product))) * kPixel * kPixel;
-    // Interpolated distances to a circle of radius R are wrong by t^2 / 8 R at most between texels t apart in
-    // either direction, t^2 / 4 R in both; times its length, 2 pi R: each of the circles t^2 pi / 2. The
-    // plate is twice as wide as the domain.
-    const double t = 1.0 / 256;
-    EXPECT_NEAR(area, 4.0 * kArea, countingError() + 4.0 * 3 * M_PI / 2 * t * t) << form;
-    EXPECT_LT(made.counter("trim_error"), 3 * M_PI / 2 * t * t + 1e-3) << form;
-  }
+  const Rendered made = render(scene, "tessellation/compute", {}, {kSide, kSide}, true);
+  const double area = double(countOf(covered(made.product))) * kPixel * kPixel;
+  // Interpolated distances to a circle of radius R are wrong by t^2 / 8 R at most between texels t apart in
+  // either direction, t^2 / 4 R in both; times its length, 2 pi R: each of the circles t^2 pi / 2. The plate
+  // is twice as wide as the domain.
+  const double t = 1.0 / 256;
+  EXPECT_NEAR(area, 4.0 * kArea, countingError() + 4.0 * 3 * M_PI / 2 * t * t);
+  EXPECT_LT(made.counter("trim_error"), 3 * M_PI / 2 * t * t + 1e-3);
   const Rendered exact = render(scene, "ray_casting/exact", {}, {kSide, kSide});
   EXPECT_NEAR(double(countOf(covered(exact.product))) * kPixel * kPixel, 4.0 * kArea, countingError());
 }

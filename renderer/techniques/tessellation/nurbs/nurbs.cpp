@@ -210,7 +210,7 @@ const RegisteredTechnique<DirectNurbs> kDirectNurbsRegistered{
      .source =
          "Kanai 2007; Krishnamurthy, Khardekar and McMains 2007; Schwarz 2009, section 6.1.4 (SC-16, SC-17)",
      .product = ProductKind::Colour,
-     .needs = {"nurbs"},
+     .needs = {"curved_surfaces", "nurbs"},
      .counters = {{"nurbs_vertices", "Vertices made", "vertices", Direction::LowerIsBetter},
                   {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
                   {"nurbs_error_of_diagonal",
