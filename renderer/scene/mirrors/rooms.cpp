@@ -120,7 +120,7 @@ const RegisteredScene<MirrorRoomSettings> kMirrorRoom{
     buildMirrorRoom};
 
 struct MirrorKitchenSettings {
-  int tessellation = 24;
+  int tessellation = 28;
   int bounceSurfaces = 2;
   double reflectance = 0.6;
   static const SettingsTable<MirrorKitchenSettings>& table() {
@@ -130,7 +130,7 @@ struct MirrorKitchenSettings {
          "tessellation",
          {6, 96},
          "segments",
-         "Segments of everything round; 24: 83 K triangles",
+         "Segments of everything round; 28: 83 K triangles",
          "Roger 2008, section 3.5 (83 K triangles)"},
         {&S::bounceSurfaces,
          "mirrors",
