@@ -24,6 +24,7 @@
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/gl/devices.h"
+#include "renderer/surfaces/tessellated_surface.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -243,10 +244,10 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      const Reference found = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on, run.technique->product().sizePx());
       reference = found.image;
       if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
-      referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
+      referenceTexture.emplace(run.technique->product().format(), run.technique->product().sizePx());
       referenceTexture->write(*reference);
     }
     MetricPictures shown;
@@ -270,7 +271,8 @@ class GlExecutor : public Executor {
       std::shared_ptr<const surfaces::TessellatedSurface> tessellation;
       if (needsTessellation(plan)) tessellation = run.technique->tessellation(*run.frame);
       evaluated.tessellation = tessellation.get();
-      evaluated.patches = &on.onGpu.scene.surfaces;
+      evaluated.patches =
+          tessellation && tessellation->moved ? tessellation->moved.get() : &on.onGpu.scene.surfaces;
       evaluated.wantsPictures = plan.artefacts.pictures;
       evaluated.wantsLight = plan.artefacts.exr;
       for (store::Measurement& measurement : evaluate(plan, evaluated, shown))
@@ -351,8 +353,9 @@ class GlExecutor : public Executor {
             {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
   }
 
-  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
-    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y, [&] {
+  /// `sizePx` of the product: a picture's, or what a stream takes.
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on, glm::ivec2 sizePx) {
+    return references_.get(sha256(referenceIdentity(run, on).dump()), sizePx.x, sizePx.y, [&] {
       RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
       return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
     });

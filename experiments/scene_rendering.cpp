@@ -38,6 +38,8 @@ perception::Depicts depicts(techniques::ProductKind kind) {
     case ProductKind::VisibilityChange:
     case ProductKind::JndMap:
       return Depicts::Nothing;
+    case ProductKind::Stream:
+      return Depicts::Items;
   }
   return Depicts::Nothing;
 }

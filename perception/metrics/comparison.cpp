@@ -38,6 +38,9 @@ Comparison::Comparison(const ComparisonInput& input, const std::string& metric, 
       mask_(input.mask),
       mirrors_(input.mirrors),
       region_(region) {
+  if (input.depicts == Depicts::Items)
+    throw Error("metric '" + metric + "' compares pictures; a stream of items is none", {},
+                "use stream_mismatches, stream_set_mismatches or stream_count_difference");
   if (test_.width != reference_.width || test_.height != reference_.height ||
       test_.channels != reference_.channels)
     throw Error(

@@ -34,9 +34,9 @@ struct ComparedRegion {
 /// A checked pair of products and the region in which they are compared.
 class Comparison {
  public:
-  /// Throws Error if an image is missing, if sizes or channels differ, if the reference has a non-finite
-  /// value, if the penumbra is requested for a colour product, or reflectors where there are none to know of.
-  /// `metric` is named in errors.
+  /// Throws Error if an image is missing, if the products are no pictures, if sizes or channels differ, if
+  /// the reference has a non-finite value, if the penumbra is requested for a colour product, or reflectors
+  /// where there are none to know of. `metric` is named in errors.
   Comparison(const ComparisonInput& input, const std::string& metric, Region region);
 
   /// Throws Error unless the products are visibility images.

@@ -32,7 +32,8 @@ struct PathRequest;
 enum class Depicts {
   Light,         ///< linear light, 1: the display's white
   ShareOfLight,  ///< share of the direct light that arrives at each pixel's surface
-  Nothing        ///< a quantity that is not looked at
+  Nothing,       ///< a quantity that is not looked at
+  Items          ///< numbers of items, row by row, then negative values: no picture at all
 };
 
 /// The surfaces that a share of light falls on: RGBA32F, linear.

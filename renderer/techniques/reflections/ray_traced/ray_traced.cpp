@@ -67,6 +67,11 @@ class RayTracedReflections : public Technique {
 
   const gl::Texture& product() const override { return picture_.texture(); }
 
+  /// A scene that moves needs its tree anew each frame.
+  std::vector<Counter> count(frame::Frame& frame) override {
+    return {{"tree_build_ms", 1e3 * frame.gpuScene().rays(frame.context()).buildS()}};
+  }
+
  private:
   RayTracedSettings settings_;
   ReflectionPicture picture_;
@@ -80,7 +85,9 @@ const RegisteredTechnique<RayTracedReflections> kRegistered{
      .summary = "Mirrors by rays through a tree of the scene's triangles",
      .source = "Roger 2008, sections 1.2.2 and 3.1 (R-59)",
      .product = ProductKind::Colour,
-     .needs = {"mirrors"}}};
+     .needs = {"mirrors"},
+     .counters = {{"tree_build_ms", "Time to build the tree, once, on the CPU", "ms",
+                   Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques
