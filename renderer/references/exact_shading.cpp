@@ -56,7 +56,36 @@ double patternValue(const scene::Pattern& pattern, glm::dvec3 at) {
   return total > 0.0 ? sum / total : 0.0;
 }
 
+/// Beckmann's density of slopes over the projected solid angle, times pi / 4: the share of facets that a
+/// direction's surroundings see.
+double beckmann(double cosine, double roughness) {
+  const double tangent = std::tan(std::acos(std::min(cosine, 1.0)));
+  return std::exp(-std::pow(tangent / roughness, 2.0)) /
+         (4.0 * roughness * roughness * std::pow(cosine, 4.0));
+}
+
 }  // namespace
+
+double exactHighlight(const frame::ShadedSetting& setting, glm::dvec3 normal, glm::dvec3 light,
+                      glm::dvec3 view) {
+  if (std::holds_alternative<frame::PhongHighlight>(setting.highlight)) {
+    const double cosine = glm::dot(glm::reflect(-view, normal), light);
+    return cosine > 0.0 ? std::pow(cosine, setting.shininess) : 0.0;
+  }
+  const glm::dvec3 sum = light + view;
+  if (!(glm::length(sum) > 0.0)) return 0.0;
+  const glm::dvec3 half = glm::normalize(sum);
+  const double nh = glm::dot(normal, half);
+  if (!(nh > 0.0)) return 0.0;
+  const auto* facets = std::get_if<frame::CookTorranceHighlight>(&setting.highlight);
+  if (!facets) return std::pow(nh, setting.shininess);
+  const double nv = glm::dot(normal, view), nl = glm::dot(normal, light), vh = glm::dot(view, half);
+  if (!(nv > 0.0 && nl > 0.0 && vh > 0.0)) return 0.0;
+  const double fresnel =
+      facets->reflectance + (1.0 - facets->reflectance) * std::pow(1.0 - std::min(vh, 1.0), 5.0);
+  const double visible = std::min({1.0, 2.0 * nh * nv / vh, 2.0 * nh * nl / vh});
+  return fresnel * beckmann(nh, facets->roughness) * visible / (nv * nl) * nl;
+}
 
 ExactShading::ExactShading(const scene::Scene& scene, const Triangles& triangles, const TriangleTree& tree,
                            glm::dvec3 anchor, const frame::ShadedSetting& setting)
@@ -125,9 +154,7 @@ glm::dvec3 ExactShading::colour(const ExactPoint& point, bool shadow) const {
   const double cosine = glm::dot(normal, light);
   if (cosine <= 0.0) return sum;
   sum += setting_.diffuse * cosine * reflectance;
-  const double highlight = glm::dot(normal, glm::normalize(light + point.view));
-  if (highlight > 0.0) sum += setting_.specular * std::pow(highlight, setting_.shininess);
-  return sum;
+  return sum + setting_.specular * exactHighlight(setting_, normal, light, point.view);
 }
 
 glm::dvec3 exactMirrored(const ExactPoint& point) {

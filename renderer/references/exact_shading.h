@@ -38,6 +38,10 @@ class ExactShading {
   std::vector<uint32_t> materialOf_;
 };
 
+/// The highlight's reflectance times pi and the cosine of the light, for a light in front of the surface;
+/// unit vectors.
+double exactHighlight(const frame::ShadedSetting& setting, glm::dvec3 normal, glm::dvec3 light,
+                      glm::dvec3 view);
 /// Unit direction in which a mirror sends what it gets from `view`: about the shading normal, or about the
 /// triangle's own where that would lead beneath the surface.
 glm::dvec3 exactMirrored(const ExactPoint& point);

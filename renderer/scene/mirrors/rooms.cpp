@@ -104,7 +104,7 @@ Scene buildMirrorRoom(const MirrorRoomSettings& settings) {
   // A ball that touches the kettle's side.
   addPart(scene, ellipsoid({-0.15, 0.7 + 0.06, 0.22 + 0.045}, glm::dvec3(0.06), 12),
           plain("ball", {0.8F, 0.7F, 0.1F}));
-  scene.lights = {lightTowards({-0.8, 3.4, 2.2}, {0.0, 0.7, 0.0}, glm::dvec2(0.3))};
+  scene.lights = {lightTowards({-0.8, 4.6, 2.2}, {0.0, 0.7, 0.0}, glm::dvec2(0.3))};
   setMovingCamera(scene, orbitCamera({-0.1, 0.8, 0.0}, 1.7, 12.0, 24.0),
                   orbitCamera({-0.1, 0.8, 0.0}, 1.5, 32.0, 18.0), 2.0);
   return scene;
@@ -120,7 +120,7 @@ const RegisteredScene<MirrorRoomSettings> kMirrorRoom{
     buildMirrorRoom};
 
 struct MirrorKitchenSettings {
-  int tessellation = 24;
+  int tessellation = 28;
   int bounceSurfaces = 2;
   double reflectance = 0.6;
   static const SettingsTable<MirrorKitchenSettings>& table() {
@@ -130,7 +130,7 @@ struct MirrorKitchenSettings {
          "tessellation",
          {6, 96},
          "segments",
-         "Segments of everything round; 24: 83 K triangles",
+         "Segments of everything round; 28: 83 K triangles",
          "Roger 2008, section 3.5 (83 K triangles)"},
         {&S::bounceSurfaces,
          "mirrors",
@@ -189,7 +189,7 @@ Scene buildMirrorKitchen(const MirrorKitchenSettings& settings) {
   addPart(scene, cupboards, plain("cupboards", {0.55F, 0.4F, 0.25F}));
   addPart(scene, knobs, plain("knobs", {0.2F, 0.2F, 0.2F}));
   addPart(scene, box({-2.45, 0.86, -2.5}, {2.45, 0.9, -1.9}), worktop);
-  for (int row = 0; row < 6; ++row)
+  for (int row = 0; row < 9; ++row)
     for (int column = 0; column < 48; ++column) {
       const double x = -2.4 + 0.1 * column, y = 0.91 + 0.1 * row;
       append(tiles, box({x + 0.004, y + 0.004, -2.5}, {x + 0.096, y + 0.096, -2.49}));
@@ -229,7 +229,7 @@ Scene buildMirrorKitchen(const MirrorKitchenSettings& settings) {
     append(chairs, movedMesh(chair(), 1.0, 180.0, {x, 0.0, 0.65}));
   }
   addPart(scene, chairs, plain("chairs", {0.6F, 0.3F, 0.15F}));
-  scene.lights = {lightTowards({0.6, 3.6, 1.6}, {0.0, 0.8, -0.6}, glm::dvec2(0.4))};
+  scene.lights = {lightTowards({0.6, 4.6, 2.6}, {0.0, 0.8, -0.6}, glm::dvec2(0.4))};
   setStillCamera(scene, {{0.25, 1.75, 2.3}, {-0.05, 0.75, -0.9}, {0.0, 1.0, 0.0}, 46.0});
   return scene;
 }
