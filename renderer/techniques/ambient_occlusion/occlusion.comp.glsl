@@ -64,25 +64,25 @@ vec2 openLine(Receiver at, vec2 place, float along) {
 #endif
 }
 
-// Occlusion along one direction of the picture: what surfaces rise above the receiver's plane, as the difference of sines
-// of elevation over the plane across the view.
+// Occlusion along one direction of the picture: how far surfaces rise above the receiver's plane, as the difference of
+// sines of elevation over the plane across the view. The receiver's plane is looked at along each place's own line of
+// sight, as places are rounded to pixels.
 float horizonOcclusion(Receiver at, vec2 direction, int steps) {
   const vec3 up = -normalize(at.position);
-  const vec3 aside = rayAt(at.pixel + ivec2(round(direction * 64.0))) - rayAt(at.pixel);
-  const vec3 along = normalize(aside - dot(aside, up) * up);
-  const float slope = -dot(at.normal, along) / max(dot(at.normal, up), 1e-4);
-  const float tangent = slope / sqrt(1.0 + slope * slope);
-  float horizon = tangent + bias;
+  const float steepest = max(dot(at.normal, up), 1e-4);
+  float most = 0.0;
   for (int i = 0; i < steps; ++i) {
     const ivec2 pixel = at.pixel + ivec2(round(direction * (at.reachPx * (float(i) + 0.5) / float(steps))));
     const float depth = depthAt(pixel);
     if (depth == 0.0 || pixel == at.pixel) continue;
-    const vec3 to = rayAt(pixel) * depth - at.position;
+    const vec3 ray = rayAt(pixel), to = ray * depth - at.position;
     const float distance = length(to);
     if (distance > at.reach || !(distance > 0.0)) continue;
-    horizon = max(horizon, dot(to, up) / distance);
+    const vec3 along = normalize(ray - dot(ray, up) * up);
+    const float slope = -dot(at.normal, along) / steepest;
+    most = max(most, dot(to, up) / distance - slope / sqrt(1.0 + slope * slope) - bias);
   }
-  return horizon - tangent - bias;
+  return min(most, 1.0);
 }
 
 #if FORM == FORM_FULL

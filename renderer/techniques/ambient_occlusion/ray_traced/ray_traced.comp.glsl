@@ -12,6 +12,7 @@ uniform ivec2 sizePx;
 uniform int side, row;  // cells of directions along each axis; this pass's
 uniform uint seed;
 uniform float radius;
+uniform vec3 eyePosition;  // relative to the anchor
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
 
@@ -38,7 +39,8 @@ void main() {
   }
   const vec3 normal = texelFetch(normals, pixel, 0).xyz;
   // Clear of neighbours in the same plane.
-  const vec3 origin = texelFetch(positions, pixel, 0).xyz + 1e-4 * radius * normal;
+  const vec3 seen = texelFetch(positions, pixel, 0).xyz;
+  const vec3 origin = seen + 1e-5 * distance(seen, eyePosition) * normal;
   const vec3 helper = abs(normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
   const vec3 tangent = normalize(cross(helper, normal)), other = cross(normal, tangent);
   float open = row == 0 ? 0.0 : imageLoad(outImage, pixel).x;

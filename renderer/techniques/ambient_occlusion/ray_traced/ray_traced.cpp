@@ -60,6 +60,7 @@ class TracedOcclusion : public Technique {
     program_->set("sizePx", frame.sizePx());
     program_->set("side", settings_.side());
     program_->set("seed", static_cast<uint32_t>(settings_.seed));
+    program_->set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
     program_->set("radius", settings_.radius.of(frame));
     positions.texture().bindTexture(kOcclusionPositionUnit);
     normals.texture().bindTexture(kOcclusionNormalUnit);
