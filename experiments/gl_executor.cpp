@@ -24,6 +24,7 @@
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/gl/devices.h"
+#include "renderer/surfaces/tessellated_surface.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -258,6 +259,7 @@ class GlExecutor : public Executor {
                                             reference.get(),
                                             evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
                                             &metricGpu_};
+      if (!on.view->mirrors.data.empty()) evaluated.mirrors = &on.view->mirrors;
       evaluated.depicts = depicts(run.info->product);
       if (const ShownSurfaces* surfaces = surfacesFor(plan, on)) evaluated.surfaces = &surfaces->textures();
       const perception::PathRenderer path = [&](const perception::PathRequest& request,
@@ -269,7 +271,8 @@ class GlExecutor : public Executor {
       std::shared_ptr<const surfaces::TessellatedSurface> tessellation;
       if (needsTessellation(plan)) tessellation = run.technique->tessellation(*run.frame);
       evaluated.tessellation = tessellation.get();
-      evaluated.patches = &on.onGpu.scene.surfaces;
+      evaluated.patches =
+          tessellation && tessellation->moved ? tessellation->moved.get() : &on.onGpu.scene.surfaces;
       evaluated.wantsPictures = plan.artefacts.pictures;
       evaluated.wantsLight = plan.artefacts.exr;
       for (store::Measurement& measurement : evaluate(plan, evaluated, shown))

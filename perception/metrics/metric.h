@@ -62,6 +62,8 @@ struct ComparisonInput {
   /// For metrics with needsTessellation: the scene's curved surfaces, and how they were drawn.
   const surfaces::PatchSet* patches = nullptr;
   const surfaces::TessellatedSurface* tessellation = nullptr;
+  /// 1 where a pixel sees a surface that reflects, 0 elsewhere; 1 channel. Null: there are none.
+  const Image* mirrors = nullptr;
   bool wantsPictures = false;  ///< coded ones of MetricResult::pictures will be used
   bool wantsLight = false;     ///< those of linear light will be
 };

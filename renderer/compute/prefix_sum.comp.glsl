@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exclusive prefix sums. See prefix_sum.h. LANES: numbers of an element. One of LOOK_BACK, REDUCE, TILES, SCAN.
+// Exclusive prefix sums. See prefix_sum.h. LANES: numbers of an element. One of LOOK_BACK, REDUCE, TILES, SCAN,
+// and ALONE: all elements are in one tile.
 #include "renderer/compute/compute_bindings.h"
 
 layout(local_size_x = kScanGroup) in;
@@ -79,7 +80,7 @@ ELEMENT tileSum(uint tile) {
   return groupSum(sum);
 }
 
-#if defined(LOOK_BACK) || defined(SCAN)
+#if defined(LOOK_BACK) || defined(SCAN) || defined(ALONE)
 shared ELEMENT rows[2][kScanRows][kScanGroup];
 
 // Inclusive sums along the rows, each its own.
@@ -220,6 +221,8 @@ void main() {
       tileState[tile] = kScanTileAll;
     }
   }
+#elif defined(ALONE)
+  ELEMENT before = ELEMENT(0u);
 #else
   ELEMENT before = tileSums[tile];
 #endif

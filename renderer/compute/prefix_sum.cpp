@@ -38,6 +38,7 @@ PrefixSum::PrefixSum(gl::Context& context, uint32_t capacity, int lanes, ScanFor
   };
   if (form_ == ScanForm::LookBack) {
     first_ = program("LOOK_BACK");
+    alone_ = program("ALONE");
   } else {
     first_ = program("REDUCE");
     second_ = program("TILES");
@@ -64,7 +65,10 @@ void PrefixSum::run(const gl::Buffer& values, const gl::Buffer& sums, uint32_t c
     glDispatchCompute((groups + rows - 1) / rows, rows, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
-  if (form_ == ScanForm::LookBack) {
+  if (alone_ && tiles == 1) {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    dispatch(*alone_, 1);
+  } else if (form_ == ScanForm::LookBack) {
     state_.clearUint(kScanTileNothing);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     dispatch(*first_, tiles);

@@ -50,7 +50,7 @@ class PrefixSum {
   ScanForm form_;
   int lanes_;
   uint32_t capacity_;
-  const gl::Program *first_ = nullptr, *second_ = nullptr, *third_ = nullptr;
+  const gl::Program *first_ = nullptr, *second_ = nullptr, *third_ = nullptr, *alone_ = nullptr;
   gl::Buffer tiles_, state_;
 };
 

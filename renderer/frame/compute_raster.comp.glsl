@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles into a depth image, or (IDS) into the indices of those that won. See compute_raster.h.
 // Without LARGE: SMALL_LANES invocations a triangle, which share its pixels if its bounding box has at most SMALL_PIXELS; all
-// others are queued in bands of rows. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
+// others are queued in bands of rows. LISTED: triangles whose number only the GPU knows; FEW_LANES and FEW_PIXELS if they are few. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
 // triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
 // triangles; see sample_raster.h. MARKED: of pixels that are listed already. KEEP: lists the small triangles that reach into
 // marked tiles and queues the others; KEPT: these small triangles alone. PACKED: depth and index at once, in 64 bits.
@@ -74,6 +74,11 @@ const float kBeyondCentre = 0.0;
 
 #ifdef LISTED
 layout(std430, binding = kRasterCountBuffer) readonly buffer Count { RasterCount listed_; };
+uint smallLanes = SMALL_LANES;
+int smallPixels = SMALL_PIXELS;
+#else
+const uint smallLanes = SMALL_LANES;
+const int smallPixels = SMALL_PIXELS;
 #endif
 uniform uint triangleCount;  // of all ranges
 uniform int rangeCount;      // 0: the triangles from 0 on
@@ -399,7 +404,7 @@ bool reachesMark(Triangle t) {
 bool keeps(uint index) {
   const Triangle t = load(index);
   const int pixels = t.size.x * t.size.y;
-  if (pixels <= SMALL_PIXELS) return pixels > 0 && reachesMark(t);
+  if (pixels <= smallPixels) return pixels > 0 && reachesMark(t);
   const int rows = rowsOfBand(t), count = (t.size.y + rows - 1) / rows;
   const uint slot = atomicAdd(queue.queued, uint(count));
   for (int band = 0; band < count && slot + uint(band) < QUEUE_CAPACITY; ++band)
@@ -431,11 +436,11 @@ void shadeOrQueue(uint drawn, uint lane) {
 #ifdef KEPT
   const bool isLarge = false;
 #else
-  const bool isLarge = pixels > SMALL_PIXELS;
+  const bool isLarge = pixels > smallPixels;
 #endif
   if (!isLarge) {
     if (pixels == 0) return;
-    const ivec2 step = ivec2(SMALL_LANES % t.size.x, SMALL_LANES / t.size.x);
+    const ivec2 step = ivec2(int(smallLanes) % t.size.x, int(smallLanes) / t.size.x);
     ivec2 at = ivec2(int(lane) % t.size.x, int(lane) / t.size.x);
     while (at.y < t.size.y) {
       shade(t, index, t.low + at);
@@ -461,13 +466,19 @@ void shadeOrQueue(uint drawn, uint lane) {
 
 void main() {
 #ifdef LISTED
-  for (uint drawn = gl_GlobalInvocationID.x; drawn < chosenCount(); drawn += gl_NumWorkGroups.x * uint(kRasterGroup))
-    shadeOrQueue(drawn, 0u);
+  const uint count = chosenCount();
+  if (count <= uint(2 * sizePx.x * sizePx.y) / uint(FEW_LANES)) {
+    smallLanes = FEW_LANES;
+    smallPixels = FEW_PIXELS;
+  }
+  const uint perStep = gl_NumWorkGroups.x * uint(kRasterGroup) / smallLanes;
+  for (uint drawn = gl_GlobalInvocationID.x / smallLanes; drawn < count; drawn += perStep)
+    shadeOrQueue(drawn, gl_GlobalInvocationID.x % smallLanes);
 #else
   if (gl_GlobalInvocationID.x >= kRasterRowInvocations) return;
   const uint invocation = gl_GlobalInvocationID.y * kRasterRowInvocations + gl_GlobalInvocationID.x;
-  const uint drawn = invocation / uint(SMALL_LANES);
-  if (drawn < chosenCount()) shadeOrQueue(drawn, invocation % uint(SMALL_LANES));
+  const uint drawn = invocation / smallLanes;
+  if (drawn < chosenCount()) shadeOrQueue(drawn, invocation % smallLanes);
 #endif
 }
 #endif

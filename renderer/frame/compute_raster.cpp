@@ -42,6 +42,8 @@ const gl::Program& program(gl::Context& context, bool large, Gathers gathers,
   if (settings.peels) defines["PEEL"] = "1";
   if (settings.listedVertexWords > 0) {
     defines["LISTED"] = "1";
+    defines["FEW_LANES"] = std::to_string(kShared.lanes) + "u";
+    defines["FEW_PIXELS"] = std::to_string(kShared.pixels);
     defines["POSITION_WORDS"] = std::to_string(settings.listedVertexWords) + "u";
   }
   return context.programs().compute("renderer/frame/compute_raster.comp.glsl", defines);
@@ -170,7 +172,7 @@ void ComputeRaster::drawListed(const ListedTriangles& triangles, const glm::mat4
   triangles.indices.bindStorage(kSceneIndicesBuffer);
   triangles.count.bindStorage(kRasterCountBuffer);
   run(clip, near, [&](const Programs& programs) {
-    programs[1]->dispatch({static_cast<int>(std::min(triangles.most, kListedInvocations)), 1},
+    programs[1]->dispatch({static_cast<int>(std::min(kShared.lanes * triangles.most, kListedInvocations)), 1},
                           {kRasterGroup, 1});
   });
 }

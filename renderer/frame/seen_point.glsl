@@ -14,18 +14,28 @@ vec3 placeRay(vec2 place, vec2 rayScale, ivec2 sizePx) {
 
 vec3 pixelRay(ivec2 pixel, vec2 rayScale, ivec2 sizePx) { return placeRay(vec2(pixel) + 0.5, rayScale, sizePx); }
 
-SeenPoint pointSeen(vec3 a, vec3 b, vec3 c, vec3 ray) {
+// Unit normal of a triangle's plane, either side; not finite for a triangle without area.
+vec3 planeNormal(vec3 a, vec3 b, vec3 c) {
   // Scaled before the product: squares of a tiny scene's areas would leave float's range.
   const vec3 e1 = b - a, e2 = c - a;
   const vec3 reach = max(abs(e1), abs(e2));
   const float unit = 1.0 / max(reach.x, max(reach.y, reach.z));
-  SeenPoint seen;
-  seen.normal = normalize(cross(e1 * unit, e2 * unit));
+  return normalize(cross(e1 * unit, e2 * unit));
+}
+
+// Distance along the view at which a ray (with z = -1) meets the triangle with this normal.
+float depthSeen(vec3 a, vec3 b, vec3 c, vec3 normal, vec3 ray) {
   // Edge-on triangles make the quotient meaningless; the surface cannot lie outside the triangle's own depths.
   const float nearest = min(-a.z, min(-b.z, -c.z)), farthest = max(-a.z, max(-b.z, -c.z));
-  const float denominator = dot(seen.normal, ray);
-  const float depth = dot(seen.normal, a) / denominator;
-  seen.depth = depth > nearest ? min(depth, farthest) : nearest;  // also turns a NaN into `nearest`
+  const float denominator = dot(normal, ray);
+  const float depth = dot(normal, a) / denominator;
+  return depth > nearest ? min(depth, farthest) : nearest;  // also turns a NaN into `nearest`
+}
+
+SeenPoint pointSeen(vec3 a, vec3 b, vec3 c, vec3 ray) {
+  SeenPoint seen;
+  seen.normal = planeNormal(a, b, c);
+  seen.depth = depthSeen(a, b, c, seen.normal, ray);
   seen.position = ray * seen.depth;
   if (dot(seen.normal, seen.position) > 0.0) seen.normal = -seen.normal;
   return seen;

@@ -84,6 +84,17 @@ void configureShading(const gl::Program& program, const Frame& frame, const Shad
   }
 }
 
+void configureHardShadow(const gl::Program& program, const ShadowMap& map, int resolution) {
+  const LightFrustum& frustum = map.frustum();
+  program.set("tangentLow", glm::vec2(frustum.low));
+  program.set("tangentSize", glm::vec2(frustum.high - frustum.low));
+  program.set("resolution", resolution);
+  program.set("bias", kShadowBias);
+  program.set("slopeBias", kShadowSlopeBias);
+  program.set("maxSlope", kShadowMaxSlope);
+  map.texture().bindTexture(kShadedShadowMapUnit);
+}
+
 void Shaded::make(Frame& frame) {
   const gl::Texture& ids = frame.get<TriangleIds>().texture();
   const gl::Texture* receivers = nullptr;
@@ -95,15 +106,8 @@ void Shaded::make(Frame& frame) {
   const auto scope = frame.passes().open("frame/shaded");
   configureShading(program_, frame, setting_);
   if (map) {
-    const LightFrustum& frustum = map->frustum();
-    program_.set("tangentLow", glm::vec2(frustum.low));
-    program_.set("tangentSize", glm::vec2(frustum.high - frustum.low));
-    program_.set("resolution", setting_.shadowResolution);
-    program_.set("bias", kShadowBias);
-    program_.set("slopeBias", kShadowSlopeBias);
-    program_.set("maxSlope", kShadowMaxSlope);
+    configureHardShadow(program_, *map, setting_.shadowResolution);
     receivers->bindTexture(kShadedReceiversUnit);
-    map->texture().bindTexture(kShadedShadowMapUnit);
   }
   ids.bindTexture(kShadedIdsUnit);
   texture_.bindImage(kShadedOutImage, gl::Access::Write);

@@ -9,6 +9,8 @@
 
 namespace limen::frame {
 
+class ShadowMap;
+
 /// Biases of the hard shadow, as in soft_shadows/hard: shares of the depth, texels of slope, and the
 /// largest slope over depth.
 inline constexpr float kShadowBias = 1e-4F, kShadowSlopeBias = 1.0F, kShadowMaxSlope = 10.0F;
@@ -59,5 +61,7 @@ class Shaded : public FrameInput {
 /// defines, and its uniforms and storage.
 gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& frame);
 void configureShading(const gl::Program& program, const Frame& frame, const ShadedSetting& setting);
+/// Uniforms of hard_shadow.glsl, and the map, of `resolution` texels a side, from frame.casters().
+void configureHardShadow(const gl::Program& program, const ShadowMap& map, int resolution);
 
 }  // namespace limen::frame

@@ -30,8 +30,8 @@ TEST(PixelSolidAngle, AddsUpToThatOfThePicture) {
     }
 }
 
-// The integral of 1 / r^3 over the pixel. The midpoint rule with 100 x 100 cells errs by less than h^2 / 24
-// times the second derivatives, at most 3 each: a relative (2 x 0.02 / 8)^2 ... below 1e-5.
+// The integral of 1 / r^3 over the pixel. The midpoint rule errs by h^2 / 24 times the second derivatives, of at
+// most 3 / r^3 along each axis: relatively by (1 / 300)^2 / 24 x 6 = 3e-6.
 TEST(PixelSolidAngle, IsTheIntegralOverThePixel) {
   const PixelSolidAngles angles({8, 6}, 1.0);
   for (const glm::ivec2 pixel : {glm::ivec2(0, 0), {3, 2}, {7, 5}, {6, 1}}) {

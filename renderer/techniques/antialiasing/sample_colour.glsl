@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colour of one sample of a window of WINDOW x WINDOW samples a pixel. See sample_view.h.
+#include "renderer/techniques/antialiasing/antialiasing_bindings.h"
+
+uniform ivec2 sizePx;  // of the samples' image
+#include "renderer/techniques/antialiasing/surface_colour.glsl"
+
+layout(binding = kSampleIdsUnit) uniform usampler2D sampleIds;
+
+const int kSamples = WINDOW * WINDOW;
+// Place in its window, column and row, of the sample that is shaded n-th.
+const ivec2 kOrder[kSamples] = ivec2[](ORDER);
+
+vec3 sampleColour(ivec2 place) {
+  const uint id = texelFetch(sampleIds, place, 0).x;
+  if (id == 0xffffffffu) return background;
+  SeenPoint seen;
+  const SurfacePoint point = surfaceSeen(place, id, seen);
+  return surfaceColour(point, seen);
+}

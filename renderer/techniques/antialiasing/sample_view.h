@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "renderer/frame/shaded.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::techniques {
+
+/// Which samples a pass shades (shade_samples.comp.glsl).
+enum class SampleForm {
+  First,    ///< the first of each pixel
+  Full,     ///< all of each pixel
+  Loop,     ///< further ones, an invocation a pixel
+  Grouped,  ///< the same in a pass for each number of samples
+  Sorted    ///< the same, pixels in order of their numbers of samples
+};
+constexpr EnumNames<SampleForm, 5> enumNames(SampleForm) {
+  return {{{{SampleForm::First, "first"},
+            {SampleForm::Full, "full"},
+            {SampleForm::Loop, "loop"},
+            {SampleForm::Grouped, "grouped"},
+            {SampleForm::Sorted, "sorted"}}}};
+}
+
+/// How samples are shaded: settings that all techniques of the family and their reference share.
+struct SampleShading {
+  frame::ShadedSetting shading;
+  int lightSamples = 1;
+  static const SettingsTable<SampleShading>& table();
+};
+
+/// Defines, and uniforms and storage, of programs that shade with surface_colour.glsl. `frame`: whose pixels
+/// are the samples. Makes the shadow map if shading has a shadow: call it outside any pass first.
+gl::ShaderDefines sampleShadingDefines(const SampleShading& settings, const frame::Frame& frame);
+void configureSampleShading(const gl::Program& program, frame::Frame& frame, const SampleShading& settings);
+/// Makes what configureSampleShading() binds; before a pass is opened.
+void makeShadowOf(frame::Frame& frame, const SampleShading& settings);
+
+/// A frame's picture in window x window samples a pixel, of which is known what each sees (Holländer 2013,
+/// section 4.3.3). In place of normals, depths and texture coordinates it stores the triangle, 4 bytes a
+/// sample, from which all else is computed where it is needed: materials here have solid textures, so neither
+/// layers nor texture coordinates exist.
+class SampleView {
+ public:
+  /// Throws Error if the samples make an image larger than the driver's largest texture.
+  SampleView(frame::Frame& parent, int window, const SampleShading& settings);
+
+  /// Makes the samples' triangles and what shading needs of other passes.
+  void make();
+  /// Defines of sample_colour.glsl.
+  gl::ShaderDefines defines() const;
+  /// Sets up a program with sample_colour.glsl.
+  void configure(const gl::Program& program);
+
+  frame::Frame& frame() { return *frame_; }
+  glm::ivec2 pictureSizePx() const { return parent_.sizePx(); }
+  int window() const { return window_; }
+
+ private:
+  frame::Frame& parent_;
+  int window_;
+  SampleShading settings_;
+  std::unique_ptr<frame::Frame> frame_;
+};
+
+}  // namespace limen::techniques
