@@ -118,7 +118,7 @@ constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
 }
 
 struct ControlMeshSettings {
-  ControlCage cage = ControlCage::Valence;
+  ControlCage cage = ControlCage::Fan;
   int valence = 24;
   FigureSettings figure;
   static const SettingsTable<ControlMeshSettings>& table() {
