@@ -117,12 +117,12 @@ constexpr EnumNames<Cage, 8> enumNames(Cage) {
             {Cage::TwoTorus, "double_torus"}}}};
 }
 
-struct CageSettings {
+struct FigureCageSettings {
   Cage cage = Cage::TwoTorus;
   int valence = 24;
   FigureSettings figure;
-  static const SettingsTable<CageSettings>& table() {
-    using S = CageSettings;
+  static const SettingsTable<FigureCageSettings>& table() {
+    using S = FigureCageSettings;
     static const SettingsTable<S> kTable = {
         {&S::cage, "cage",
          "Control mesh: closed ones of valence 4 or 3, an open sheet, open triangles around a vertex, two "
@@ -138,7 +138,7 @@ struct CageSettings {
   }
 };
 
-surfaces::PolygonMesh cageOf(const CageSettings& settings) {
+surfaces::PolygonMesh cageOf(const FigureCageSettings& settings) {
   const auto n = static_cast<uint32_t>(settings.valence);
   switch (settings.cage) {
     case Cage::Octahedron:
@@ -170,7 +170,7 @@ surfaces::PolygonMesh cageOf(const CageSettings& settings) {
   }
 }
 
-Scene buildCage(const CageSettings& settings) {
+Scene buildFigureCage(const FigureCageSettings& settings) {
   surfaces::SubdivisionSurface surface;
   surface.cage = cageOf(settings);
   surface.scheme = settings.figure.scheme == CageScheme::CatmullClark
@@ -184,14 +184,14 @@ Scene buildCage(const CageSettings& settings) {
   return staged(std::move(surface), settings.figure);
 }
 
-const RegisteredScene<CageSettings> kCage{
+const RegisteredScene<FigureCageSettings> kFigureCage{
     {.name = "curved/cage",
      .version = 1,
      .summary =
          "Control meshes that subdivision may trip over: extreme valences, boundaries, creases, collapsed "
          "triangles",
      .source = "bench"},
-    buildCage};
+    buildFigureCage};
 
 }  // namespace
 }  // namespace limen::scene
