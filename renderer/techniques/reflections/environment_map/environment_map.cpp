@@ -118,13 +118,13 @@ struct EnvironmentMapSettings {
 };
 
 /// The mirror with the largest surface: its part, and the middle of its box relative to the anchor.
-struct MappedReflector {
+struct MapReflector {
   uint32_t part = ViewRaster::kNoGroup;
   glm::dvec3 middle{0.0};
 };
 
-MappedReflector largestReflector(const scene::Scene& scene, glm::dvec3 anchor) {
-  MappedReflector best;
+MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor) {
+  MapReflector best;
   double most = -1.0;
   for (size_t p = 0; p < scene.parts.size(); ++p) {
     const scene::Part& part = scene.parts[p];
@@ -155,7 +155,7 @@ class EnvironmentMap : public Technique {
 
   void prepare(frame::Frame& frame) override {
     const scene::Scene& scene = frame.scene();
-    reflector_ = largestReflector(scene, frame.gpuScene().anchor());
+    reflector_ = largestMapReflector(scene, frame.gpuScene().anchor());
     std::vector<uint32_t> partOf(scene.mesh.triangles.size());
     for (size_t p = 0; p < scene.parts.size(); ++p)
       std::fill_n(partOf.begin() + scene.parts[p].firstTriangle, scene.parts[p].triangleCount, uint32_t(p));
@@ -285,7 +285,7 @@ class EnvironmentMap : public Technique {
 
   EnvironmentMapSettings settings_;
   ReflectionPicture picture_;
-  MappedReflector reflector_;
+  MapReflector reflector_;
   const gl::Program *face_ = nullptr, *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
   std::optional<ViewRaster> raster_;
   std::optional<CubeMap> map_, filtered_;
