@@ -18,7 +18,8 @@ class FrameTiming {
   /// Frames that are rendered but not timed. A slow technique gets fewer: at least one, then as many as fit
   /// in two seconds.
   void warmUp(frame::Frame& frame, techniques::Technique& technique) const;
-  /// One round of timed frames. `maxSeconds` cuts a round of a slow technique short, but not below one frame.
+  /// One round of timed frames; on a GPU followed by a quarter as many whose passes are timed (see
+  /// gl::Recorded). `maxSeconds` cuts a round of a slow technique short, but not below one frame.
   void measureRound(frame::Frame& frame, techniques::Technique& technique, int round, double maxSeconds);
 
   const std::vector<store::FrameTime>& times() const { return times_; }
@@ -28,7 +29,12 @@ class FrameTiming {
  private:
   Timing timing_;
   gl::Clock clock_;
-  int frames_ = 0;
+  /// Renders up to `planned` frames and stores what is recorded of them. Returns how many.
+  int record(frame::Frame& frame, techniques::Technique& technique, int round, int planned, double maxSeconds,
+             gl::Recorded what);
+
+  int frames_ = 0;       // rendered
+  int wholeFrames_ = 0;  // of them, timed as a whole
   std::vector<store::FrameTime> times_;
 };
 

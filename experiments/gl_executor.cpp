@@ -243,10 +243,10 @@ class GlExecutor : public Executor {
     std::optional<gl::Texture> referenceTexture;
     if (!plan.reference.name.empty()) {
       const Stopwatch watch(seconds_["references"]);
-      const Reference found = referenceFor(plan, on);
+      const Reference found = referenceFor(plan, on, run.technique->product().sizePx());
       reference = found.image;
       if (!found.remarks.empty()) run.outcome.sceneFacts["reference_remarks"] = found.remarks;
-      referenceTexture.emplace(run.technique->product().format(), run.frame->sizePx());
+      referenceTexture.emplace(run.technique->product().format(), run.technique->product().sizePx());
       referenceTexture->write(*reference);
     }
     MetricPictures shown;
@@ -258,6 +258,7 @@ class GlExecutor : public Executor {
                                             reference.get(),
                                             evaluatedEverywhere(run.info->product) ? nullptr : &on.view->mask,
                                             &metricGpu_};
+      if (!on.view->mirrors.data.empty()) evaluated.mirrors = &on.view->mirrors;
       evaluated.depicts = depicts(run.info->product);
       if (const ShownSurfaces* surfaces = surfacesFor(plan, on)) evaluated.surfaces = &surfaces->textures();
       const perception::PathRenderer path = [&](const perception::PathRequest& request,
@@ -350,8 +351,9 @@ class GlExecutor : public Executor {
             {"size_px", {on.sizePx.x, on.sizePx.y}},   {"device", environment_.device}};
   }
 
-  Reference referenceFor(const PlannedRun& run, const SharedScene& on) {
-    return references_.get(sha256(referenceIdentity(run, on).dump()), on.sizePx.x, on.sizePx.y, [&] {
+  /// `sizePx` of the product: a picture's, or what a stream takes.
+  Reference referenceFor(const PlannedRun& run, const SharedScene& on, glm::ivec2 sizePx) {
+    return references_.get(sha256(referenceIdentity(run, on).dump()), sizePx.x, sizePx.y, [&] {
       RenderedOnce made = renderWithRemarks(*context_, on.onGpu, on.sizePx, run.reference);
       return Reference{std::make_shared<const Image>(std::move(made.product)), std::move(made.remarks)};
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/product.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -28,6 +29,14 @@ Image absolute(Image product) {
   return product;
 }
 
+/// Items from dark grey for the first to white for the last; the rest is black.
+Image streamPicture(const Image& product) {
+  const float last = *std::max_element(product.data.begin(), product.data.end());
+  Image grey = product;
+  for (float& value : grey.data) value = value < 0.0F ? 0.0F : 0.1F + 0.9F * value / std::max(last, 1.0F);
+  return perception::displayPicture(composed(grey, {}, false));
+}
+
 }  // namespace
 
 Image productPicture(techniques::ProductKind kind, const Image& product, const Image& shading) {
@@ -35,6 +44,7 @@ Image productPicture(techniques::ProductKind kind, const Image& product, const I
   if (kind == ProductKind::Threshold) return perception::thresholdPicture(product);
   if (kind == ProductKind::JndMap) return perception::errorPicture(product, kJndPictureWhite);
   if (kind == ProductKind::VisibilityChange) return perception::errorPicture(absolute(product), kErrorScale);
+  if (kind == ProductKind::Stream) return streamPicture(product);
   const bool isShare = product.channels == 1 || kind == ProductKind::LightColour;
   return perception::displayPicture(composed(product, shading, isShare));
 }
@@ -45,7 +55,8 @@ double mapWhite(const std::string& mapName) {
 }
 
 bool evaluatedEverywhere(techniques::ProductKind kind) {
-  return kind == techniques::ProductKind::Threshold || kind == techniques::ProductKind::JndMap;
+  return kind == techniques::ProductKind::Threshold || kind == techniques::ProductKind::JndMap ||
+         kind == techniques::ProductKind::Stream;
 }
 
 std::string productHash(const Image& product) {

@@ -6,6 +6,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/shaded.h"
 
 namespace limen::experiments {
@@ -37,6 +38,8 @@ perception::Depicts depicts(techniques::ProductKind kind) {
     case ProductKind::VisibilityChange:
     case ProductKind::JndMap:
       return Depicts::Nothing;
+    case ProductKind::Stream:
+      return Depicts::Items;
   }
   return Depicts::Nothing;
 }
@@ -59,8 +62,13 @@ ViewImages viewImages(gl::Context& context, const frame::SceneOnGpu& onGpu, glm:
   const Image normals = frame.get<GBufferChannel>(ChannelSetting{Channel::Normal}).texture().read();
   const Image positions = frame.get<GBufferChannel>(ChannelSetting{Channel::Position}).texture().read();
   const Image albedo = frame.get<GBufferChannel>(ChannelSetting{Channel::Albedo}).texture().read();
+  ViewImages out{Image(sizePx.x, sizePx.y, 1), {}, Image(sizePx.x, sizePx.y, 3)};
+  if (onGpu.scene.traits().count("mirrors")) {
+    const Image origins = frame.get<frame::MirrorRays>().origins().read();
+    out.mirrors = Image(sizePx.x, sizePx.y, 1);
+    for (size_t i = 0; i < out.mirrors.pixels(); ++i) out.mirrors.data[i] = origins.data[4 * i + 3];
+  }
   frame.end();
-  ViewImages out{Image(sizePx.x, sizePx.y, 1), Image(sizePx.x, sizePx.y, 3)};
   const auto& lights = onGpu.scene.lights;
   const glm::dvec3 light = lights.empty() ? glm::dvec3(0.0) : lights[0].centre - onGpu.gpu.anchor();
   for (size_t i = 0; i < out.mask.pixels(); ++i) {

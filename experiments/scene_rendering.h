@@ -18,6 +18,7 @@ namespace limen::experiments {
 /// What metrics and pictures need of a view besides the product.
 struct ViewImages {
   Image mask;     ///< 1 channel: 1 on receivers, 0 elsewhere
+  Image mirrors;  ///< 1 channel: 1 where a pixel sees a mirror; empty if the scene has none
   Image shading;  ///< 3 channels: albedo times the cosine towards the light's centre, unshadowed
 };
 

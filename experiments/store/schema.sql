@@ -65,7 +65,7 @@ CREATE TABLE frame_time (
   run INTEGER NOT NULL REFERENCES run(id) ON DELETE CASCADE,
   frame INTEGER NOT NULL,             -- 0..; rounds follow one another
   round INTEGER NOT NULL,
-  pass TEXT NOT NULL,                 -- 'frame' is the whole frame on the GPU, 'wall' and 'cpu' the host's share
+  pass TEXT NOT NULL,                 -- 'frame' is the whole frame on the GPU, 'wall' and 'cpu' the host's share; on a GPU passes are timed in other frames than these
   nanoseconds INTEGER NOT NULL,
   PRIMARY KEY (run, frame, pass)
 );

@@ -122,6 +122,7 @@ class EvaluationThread::Work {
             nullptr,    nullptr, &product, out.reference.get(), everywhere ? nullptr : &request.view->mask,
             &metricGpu_};
         input.depicts = depicted;
+        if (!request.view->mirrors.data.empty()) input.mirrors = &request.view->mirrors;
         if (surfaces) input.surfaces = &surfaces->textures();
         perception::MetricResult result = metric.compare(input, *values);
         if (result.map && !maps.count(result.mapName)) {

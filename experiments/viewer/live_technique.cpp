@@ -50,16 +50,24 @@ void LiveTechnique::renderFrame() {
 
 void LiveTechnique::render(int frames, double seconds) {
   frame_.setTime(0.0);
-  frame_.passes().startRecording(clock_, frames);
-  const auto start = Clock::now();
-  for (int i = 0; i < frames && (i == 0 || secondsSince(start) < seconds); ++i) {
-    renderFrame();
-    // With a long queue, seconds of work would pass before the limit is noticed.
-    if (i == 0 && frames > 1) glFinish();
-  }
   std::map<std::string, std::map<int, double>> byPass;
-  for (const gl::PassTime& time : frame_.passes().finishRecording())
-    byPass[time.pass][time.frame] += 1e-6 * static_cast<double>(time.nanoseconds);
+  const auto record = [&](int most, gl::Recorded what) {
+    frame_.passes().startRecording(clock_, most, what);
+    const auto start = Clock::now();
+    for (int i = 0; i < most && (i == 0 || secondsSince(start) < seconds); ++i) {
+      renderFrame();
+      // With a long queue, seconds of work would pass before the limit is noticed.
+      if (i == 0 && most > 1) glFinish();
+    }
+    for (const gl::PassTime& time : frame_.passes().finishRecording())
+      byPass[time.pass][time.frame] += 1e-6 * static_cast<double>(time.nanoseconds);
+  };
+  if (clock_ == gl::Clock::Gpu) {
+    record(frames, gl::Recorded::Frames);
+    record((frames + 3) / 4, gl::Recorded::Passes);
+  } else {
+    record(frames, gl::Recorded::Both);
+  }
   passMs_.clear();
   for (const auto& [pass, ofFrames] : byPass) {
     std::vector<double> times;

@@ -27,7 +27,8 @@ double clampToDisplay(double value) { return std::clamp(value, 0.0, 1.0); }
 const SettingsTable<ComparedRegion>& ComparedRegion::table() {
   static const SettingsTable<ComparedRegion> kTable = {
       {&ComparedRegion::region, "region",
-       "pixels to compare; penumbra: receivers whose reference visibility is between 0 and 1"}};
+       "pixels to compare; penumbra: receivers whose reference visibility is between 0 and 1; reflectors: "
+       "pixels that see a mirror"}};
   return kTable;
 }
 
@@ -35,7 +36,11 @@ Comparison::Comparison(const ComparisonInput& input, const std::string& metric, 
     : test_(present(input.test, metric, "test")),
       reference_(present(input.reference, metric, "reference")),
       mask_(input.mask),
+      mirrors_(input.mirrors),
       region_(region) {
+  if (input.depicts == Depicts::Items)
+    throw Error("metric '" + metric + "' compares pictures; a stream of items is none", {},
+                "use stream_mismatches, stream_set_mismatches or stream_count_difference");
   if (test_.width != reference_.width || test_.height != reference_.height ||
       test_.channels != reference_.channels)
     throw Error(
@@ -48,6 +53,10 @@ Comparison::Comparison(const ComparisonInput& input, const std::string& metric, 
                 {}, "give a mask of the same size with 1 channel");
   if (region == Region::Penumbra && channels() != 1)
     throw Error("metric '" + metric + "': a colour product has no penumbra", {},
+                "use region: receivers or all");
+  if (region == Region::Reflectors &&
+      (!mirrors_ || mirrors_->width != test_.width || mirrors_->height != test_.height))
+    throw Error("metric '" + metric + "': the scene has no mirrors, or they are not known here", {},
                 "use region: receivers or all");
   const auto badIn = [&](int y) {
     double bad = 0.0;

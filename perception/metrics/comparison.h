@@ -14,11 +14,15 @@ namespace limen::perception {
 enum class Region {
   All,        ///< every pixel
   Receivers,  ///< where the mask is set; every pixel without a mask
-  Penumbra    ///< receivers whose reference visibility lies strictly between 0 and 1
+  Penumbra,   ///< receivers whose reference visibility lies strictly between 0 and 1
+  Reflectors  ///< pixels that see a mirror (ComparisonInput::mirrors)
 };
 
-constexpr EnumNames<Region, 3> enumNames(Region) {
-  return {{{{Region::All, "all"}, {Region::Receivers, "receivers"}, {Region::Penumbra, "penumbra"}}}};
+constexpr EnumNames<Region, 4> enumNames(Region) {
+  return {{{{Region::All, "all"},
+            {Region::Receivers, "receivers"},
+            {Region::Penumbra, "penumbra"},
+            {Region::Reflectors, "reflectors"}}}};
 }
 
 /// Settings of metrics that compare pixel by pixel.
@@ -30,8 +34,9 @@ struct ComparedRegion {
 /// A checked pair of products and the region in which they are compared.
 class Comparison {
  public:
-  /// Throws Error if an image is missing, if sizes or channels differ, if the reference has a non-finite
-  /// value, or if the penumbra is requested for a colour product. `metric` is named in errors.
+  /// Throws Error if an image is missing, if the products are no pictures, if sizes or channels differ, if
+  /// the reference has a non-finite value, if the penumbra is requested for a colour product, or reflectors
+  /// where there are none to know of. `metric` is named in errors.
   Comparison(const ComparisonInput& input, const std::string& metric, Region region);
 
   /// Throws Error unless the products are visibility images.
@@ -47,6 +52,7 @@ class Comparison {
 
   bool evaluates(int x, int y) const {
     if (region_ == Region::All) return true;
+    if (region_ == Region::Reflectors) return mirrors_->at(x, y) > 0.5F;
     if (mask_ && !(mask_->at(x, y) > 0.5F)) return false;
     return region_ == Region::Receivers || (reference_.at(x, y) > 0.0F && reference_.at(x, y) < 1.0F);
   }
@@ -65,6 +71,7 @@ class Comparison {
   const Image& test_;
   const Image& reference_;
   const Image* mask_;
+  const Image* mirrors_;
   Region region_;
   int64_t evaluatedPixels_ = 0;
 };

@@ -32,7 +32,8 @@ struct PathRequest;
 enum class Depicts {
   Light,         ///< linear light, 1: the display's white
   ShareOfLight,  ///< share of the direct light that arrives at each pixel's surface
-  Nothing        ///< a quantity that is not looked at
+  Nothing,       ///< a quantity that is not looked at
+  Items          ///< numbers of items, row by row, then negative values: no picture at all
 };
 
 /// The surfaces that a share of light falls on: RGBA32F, linear.
@@ -61,8 +62,10 @@ struct ComparisonInput {
   /// For metrics with needsTessellation: the scene's curved surfaces, and how they were drawn.
   const surfaces::PatchSet* patches = nullptr;
   const surfaces::TessellatedSurface* tessellation = nullptr;
-  bool wantsPictures = false;             ///< coded ones of MetricResult::pictures will be used
-  bool wantsLight = false;                ///< those of linear light will be
+  /// 1 where a pixel sees a surface that reflects, 0 elsewhere; 1 channel. Null: there are none.
+  const Image* mirrors = nullptr;
+  bool wantsPictures = false;  ///< coded ones of MetricResult::pictures will be used
+  bool wantsLight = false;     ///< those of linear light will be
 };
 
 /// What a metric shows besides its map.

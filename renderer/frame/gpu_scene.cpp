@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <glm/gtc/packing.hpp>
 
 #include "renderer/frame/frame_bindings.h"
@@ -30,12 +31,19 @@ glm::dvec3 anchorOf(const scene::Bounds& bounds) {
   return bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
 }
 
+/// The anchor is the centre.
+double reachOf(const scene::Bounds& bounds) {
+  const glm::dvec3 size = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
+  return 0.5 * std::max({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const scene::Scene& scene)
     : scene_(scene),
       anchor_(anchorOf(scene.bounds())),
       diagonal_(scene.bounds().diagonal()),
+      reach_(reachOf(scene.bounds())),
       triangleCount_(static_cast<uint32_t>(scene.mesh.triangles.size())),
       vertexCount_(static_cast<uint32_t>(scene.mesh.positions.size() + scene.coarser.positions.size())),
       positions_(relativePositions(scene, anchor_)),

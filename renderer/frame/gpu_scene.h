@@ -32,6 +32,7 @@ class GpuScene {
 
   glm::dvec3 anchor() const { return anchor_; }
   double diagonal() const { return diagonal_; }  ///< of the scene's bounds
+  double reach() const { return reach_; }        ///< largest finite coordinate relative to the anchor
   /// Of the scene with all objects at their finest level.
   uint32_t triangleCount() const { return triangleCount_; }
   uint32_t vertexCount() const { return vertexCount_; }  ///< of all levels
@@ -53,7 +54,7 @@ class GpuScene {
  private:
   const scene::Scene& scene_;
   glm::dvec3 anchor_;
-  double diagonal_;
+  double diagonal_, reach_;
   uint32_t triangleCount_, vertexCount_, vertexArray_ = 0;
   gl::Buffer positions_, indices_, firstTriangle_;
   mutable std::optional<SurfaceBuffers> surface_;

@@ -10,6 +10,7 @@ layout(binding = kMirrorRaysDirectionsImage, rgba32f) uniform writeonly image2D 
 uniform ivec2 sizePx;
 #include "renderer/frame/mirrored.glsl"
 #include "renderer/frame/surface_point.glsl"
+#include "renderer/frame/ray_origin.glsl"
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -19,7 +20,10 @@ void main() {
   if (id != 0xffffffffu && surfaceMaterials[surfaceMaterialOf[id]].mirror != vec3(0.0)) {
     SeenPoint seen;
     const SurfacePoint point = surfaceSeen(pixel, id, seen);
-    origin = vec4(point.position, 1.0);
+    const uvec3 vertices = sceneTriangle(id);
+    origin = vec4(pointOnTriangle(scenePosition(vertices.x), scenePosition(vertices.y), scenePosition(vertices.z),
+                                  point.position),
+                  1.0);
     direction = vec4(mirrored(point.view, point.normal, point.flatNormal),
                      clamp(dot(point.view, point.normal), 0.0, 1.0));
   }

@@ -9,6 +9,12 @@
 
 namespace limen::frame {
 
+double rayOriginTolerance(const GpuScene& scene) { return 0x1p-20 * scene.reach(); }
+
+void configureRayOrigins(const gl::Program& program, const GpuScene& scene) {
+  program.set("originTolerance", static_cast<float>(rayOriginTolerance(scene)));
+}
+
 MirrorRays::MirrorRays(Frame& frame)
     : program_(frame.context().programs().compute("renderer/frame/mirror_rays.comp.glsl",
                                                   surfaceDefines(frame, true))),

@@ -20,6 +20,9 @@ gl::ShaderDefines shadingDefines(const ShadedSetting& setting, const Frame& fram
   if (lit) defines["LIT"] = "1";
   if (lit && setting.shadow) defines["SHADOW"] = "1";
   if (setting.pattern) defines["PATTERN"] = "1";
+  if (std::holds_alternative<PhongHighlight>(setting.highlight)) defines["HIGHLIGHT_PHONG"] = "1";
+  if (std::holds_alternative<CookTorranceHighlight>(setting.highlight))
+    defines["HIGHLIGHT_COOK_TORRANCE"] = "1";
   return defines;
 }
 
@@ -29,7 +32,37 @@ std::string ShadedSetting::key() const {
        {ambient, diffuse, specular, shininess, background, double(shadowResolution), eyeDtS})
     out += shortestNumber(value) + "/";
   for (const bool flag : {smoothNormals, pattern, shadow}) out += flag ? '1' : '0';
+  if (std::holds_alternative<PhongHighlight>(highlight)) out += "/phong";
+  if (const auto* facets = std::get_if<CookTorranceHighlight>(&highlight))
+    out += "/facets/" + shortestNumber(facets->roughness) + '/' + shortestNumber(facets->reflectance);
   return out;
+}
+
+const SettingsTable<BlinnHighlight>& BlinnHighlight::table() {
+  static const SettingsTable<BlinnHighlight> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<PhongHighlight>& PhongHighlight::table() {
+  static const SettingsTable<PhongHighlight> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<CookTorranceHighlight>& CookTorranceHighlight::table() {
+  using S = CookTorranceHighlight;
+  static const SettingsTable<S> kTable = {{&S::roughness,
+                                           "roughness",
+                                           {0.02, 1.0},
+                                           "",
+                                           "Root mean square slope of the microfacets (Beckmann)",
+                                           "Roger 2008, equation 1.11"},
+                                          {&S::reflectance,
+                                           "reflectance",
+                                           {0.0, 1.0},
+                                           "",
+                                           "At normal incidence (Schlick)",
+                                           "Roger 2008, section 1.2.3"}};
+  return kTable;
 }
 
 const SettingsTable<ShadedSetting>& ShadedSetting::table() {
@@ -40,10 +73,11 @@ const SettingsTable<ShadedSetting>& ShadedSetting::table() {
       Binding(&S::diffuse, "diffuse", Range{0.0, 1.0}, "",
               "Share of the albedo times the cosine towards the light")
           .formerly({"diffuse"}),
-      Binding(&S::specular, "specular", Range{0.0, 4.0}, "", "Strength of the highlight (Blinn-Phong)")
+      Binding(&S::specular, "specular", Range{0.0, 4.0}, "", "Strength of the highlight")
           .formerly({"specular"}),
       Binding(&S::shininess, "shininess", Range{1.0, 4096.0}, "", "Exponent of the highlight")
           .formerly({"shininess"}),
+      {&S::highlight, "highlight", "Form of the highlight"},
       Binding(&S::background, "background", Range{0.0, 1.0}, "", "Linear grey of the background",
               "Schwarz 2009, section 10.4.1 (dark grey; value not given there)")
           .formerly({"background"}),
@@ -71,6 +105,10 @@ void configureShading(const gl::Program& program, const Frame& frame, const Shad
   program.set("diffuse", static_cast<float>(setting.diffuse));
   program.set("specular", static_cast<float>(setting.specular));
   program.set("shininess", static_cast<float>(setting.shininess));
+  if (const auto* facets = std::get_if<CookTorranceHighlight>(&setting.highlight)) {
+    program.set("roughness", static_cast<float>(facets->roughness));
+    program.set("normalReflectance", static_cast<float>(facets->reflectance));
+  }
   const scene::Camera& seenBy =
       setting.eyeDtS == 0.0 ? frame.camera() : frame.scene().camera.at(frame.timeS() - setting.eyeDtS);
   configureSurfacePoints(program, frame, seenBy);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
@@ -15,12 +16,33 @@ class ShadowMap;
 /// largest slope over depth.
 inline constexpr float kShadowBias = 1e-4F, kShadowSlopeBias = 1.0F, kShadowMaxSlope = 10.0F;
 
+/// Forms of the highlight (Roger 2008, section 1.2.3), each times the cosine of the light that its
+/// reflectance holds in the denominator.
+struct BlinnHighlight {
+  static constexpr const char *kKind = "blinn",
+                              *kSummary =
+                                  "power of the cosine between the normal and the middle of light and view";
+  static const SettingsTable<BlinnHighlight>& table();
+};
+struct PhongHighlight {
+  static constexpr const char *kKind = "phong",
+                              *kSummary = "power of the cosine between the light and the mirrored view";
+  static const SettingsTable<PhongHighlight>& table();
+};
+struct CookTorranceHighlight {
+  static constexpr const char *kKind = "cook_torrance",
+                              *kSummary = "microfacets; `shininess` has no part in it";
+  double roughness = 0.2, reflectance = 0.04;
+  static const SettingsTable<CookTorranceHighlight>& table();
+};
+
 /// How Shaded lights a scene. The light is the scene's first; a scene without one has ambient light only.
 struct ShadedSetting {
   double ambient = 0.2;   ///< ambient share of the albedo
   double diffuse = 0.8;   ///< share times the cosine towards the light's centre; no fall-off with distance
-  double specular = 0.0;  ///< Blinn-Phong highlight, added
+  double specular = 0.0;  ///< strength of the highlight, added
   double shininess = 32.0;
+  std::variant<BlinnHighlight, PhongHighlight, CookTorranceHighlight> highlight;
   double background = 0.05;     ///< linear grey; 0.05 is the dark grey 63 of 255 of sRGB
   bool smoothNormals = true;    ///< vertex or patch normals where the mesh has them
   bool pattern = true;          ///< solid textures of the materials

@@ -27,6 +27,27 @@ vec3 patterned(SurfaceMaterial material, vec3 position) {
 #endif
 }
 
+#ifdef HIGHLIGHT_COOK_TORRANCE
+uniform float roughness, normalReflectance;
+
+// pi times the reflectance by microfacets, times the cosine of the light (Roger 2008, equation 1.11, with the cosines in the
+// denominator): Schlick's Fresnel term, Beckmann's distribution, the geometric term of Torrance and Sparrow. The distribution
+// has the factor 1/4 of Cook and Torrance 1981; without it surfaces would reflect up to four times what they receive.
+float cookTorrance(vec3 normal, vec3 toLight, vec3 view) {
+  const vec3 middle = toLight + view;
+  if (!(dot(middle, middle) > 0.0)) return 0.0;
+  const vec3 h = normalize(middle);
+  const float nh = dot(normal, h), nv = dot(normal, view), nl = dot(normal, toLight), vh = dot(view, h);
+  if (!(nh > 0.0 && nv > 0.0 && nl > 0.0 && vh > 0.0)) return 0.0;
+  const float rest = 1.0 - min(vh, 1.0), squared = rest * rest;
+  const float fresnel = normalReflectance + (1.0 - normalReflectance) * squared * squared * rest;
+  const float cosine2 = min(nh * nh, 1.0), m2 = roughness * roughness;
+  const float facets = exp((cosine2 - 1.0) / (cosine2 * m2)) / (4.0 * m2 * cosine2 * cosine2);
+  const float unshadowed = min(1.0, min(2.0 * nh * nv / vh, 2.0 * nh * nl / vh));
+  return fresnel * facets * unshadowed / nv;
+}
+#endif
+
 // Of a surface that the shares `sky` and `sun` of the light reach; unit vectors.
 vec3 litColour(vec3 albedo, vec3 normal, vec3 toLight, vec3 view, float sky, float sun) {
   vec3 colour = ambient * sky * albedo;
@@ -34,8 +55,15 @@ vec3 litColour(vec3 albedo, vec3 normal, vec3 toLight, vec3 view, float sky, flo
   const float cosine = dot(normal, toLight);
   if (cosine > 0.0) {
     colour += diffuse * cosine * sun * albedo;
+#if defined(HIGHLIGHT_PHONG)
+    const float highlight = dot(2.0 * dot(normal, view) * normal - view, toLight);
+    if (specular > 0.0 && highlight > 0.0) colour += specular * sun * pow(highlight, shininess);
+#elif defined(HIGHLIGHT_COOK_TORRANCE)
+    if (specular > 0.0) colour += specular * sun * cookTorrance(normal, toLight, view);
+#else
     const float highlight = dot(normal, normalize(toLight + view));
     if (specular > 0.0 && highlight > 0.0) colour += specular * sun * pow(highlight, shininess);
+#endif
   }
 #endif
   return colour;

@@ -39,6 +39,8 @@ void PassList::setBytesHeld(const std::string& name, int64_t bytes) {
 
 void PassList::mark(size_t slot, bool begin) {
   if (clock_ == Clock::None || frame_ < 0 || frame_ >= capacity_) return;
+  const bool wholeFrame = slot + 1 == slots_;
+  if (what_ == (wholeFrame ? Recorded::Passes : Recorded::Frames)) return;
   const size_t index = (static_cast<size_t>(frame_) * slots_ + slot) * 2 + (begin ? 0 : 1);
   used_[index / 2] = 1;
   if (clock_ == Clock::Gpu) {
@@ -58,8 +60,9 @@ void PassList::beginFrame() {
 
 void PassList::endFrame() { mark(slots_ - 1, false); }
 
-void PassList::startRecording(Clock clock, int frames) {
+void PassList::startRecording(Clock clock, int frames, Recorded what) {
   clock_ = clock;
+  what_ = what;
   frame_ = -1;
   capacity_ = frames;
   slots_ = passes_.size() + 1;

@@ -12,6 +12,11 @@ namespace limen::gl {
 /// between calls of glFinish.
 enum class Clock { None, Gpu, Wall };
 
+/// What is timed. A timestamp waits until all before it is done: between passes it keeps the end of one and
+/// the start of the next from overlapping, and takes a microsecond or two itself. So whole frames are timed
+/// without any within them.
+enum class Recorded { Frames, Passes, Both };
+
 /// Time of one pass of one frame. The pass "frame" is the whole frame.
 struct PassTime {
   int frame = 0;
@@ -57,7 +62,7 @@ class PassList {
   void endFrame();
 
   /// Starts recording at most `frames` frames of the passes known by then; run a warm-up frame first.
-  void startRecording(Clock clock, int frames);
+  void startRecording(Clock clock, int frames, Recorded what = Recorded::Both);
   /// Ends recording; waits for the GPU and returns all times, in order of frames.
   std::vector<PassTime> finishRecording();
 
@@ -71,6 +76,7 @@ class PassList {
   std::vector<Pass> passes_;
   std::string prefix_;
   Clock clock_ = Clock::None;
+  Recorded what_ = Recorded::Both;
   int frame_ = -1, capacity_ = 0;
   size_t slots_ = 0;               // passes + 1 (the frame itself, last)
   std::vector<uint32_t> queries_;  // [frame][slot][begin, end]

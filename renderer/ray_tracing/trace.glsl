@@ -9,6 +9,7 @@
 //
 // The shader that includes this defines rayHitCounts(), which may reject hits, and sets what RayScene::bind() needs.
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
+#include "renderer/ray_tracing/ray_triangle.glsl"
 
 layout(std430, binding = kRayNodesBuffer) readonly buffer RayNodes { uvec4 rayNodes[]; };          // 5 a node
 layout(std430, binding = kRayTrianglesBuffer) readonly buffer RayTriangles { vec4 rayTriangles[]; };  // 3 a triangle
@@ -36,22 +37,6 @@ int rayIterations = 0;
 bool rayCutShort = false;
 
 const float kRaySlack = 1.9073486e-6;  // 2^-19, share of a distance that its rounding may amount to
-
-struct RayShear {
-  int axis;  // along which the direction is longest
-  vec3 by;   // the shear of the other two, and the scale
-};
-
-vec3 rayPermuted(vec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.yzx : v.zxy; }
-
-vec2 raySheared(vec3 v, vec3 by) { return vec2(fma(-by.x, v.z, v.x), fma(-by.y, v.z, v.y)); }
-
-// Rounded products first: their order is that of the exact ones, or they are equal.
-float rayEdge(vec2 a, vec2 b) {
-  precise const float left = a.x * b.y, right = a.y * b.x;
-  precise const float side = left - right;
-  return side;
-}
 
 // True if the ray hits triangle `index` (of rayTriangles) between near and hit.t, which it then replaces.
 bool rayHitsTriangle(Ray ray, RayShear shear, uint index, inout RayHit hit) {
@@ -102,10 +87,7 @@ RayHit rayTraverse(Ray ray, bool anyIsEnough) {
   const float largest = max(size.x, max(size.y, size.z));
   if (rayNodeCount == 0u || !(largest > 0.0)) return hit;
 
-  RayShear shear;
-  shear.axis = size.z >= size.x && size.z >= size.y ? 2 : size.x >= size.y ? 0 : 1;
-  const vec3 turned = rayPermuted(ray.direction, shear.axis);
-  shear.by = vec3(turned.xy, 1.0) / turned.z;
+  const RayShear shear = rayShear(ray.direction);
 
   // A direction along an axis is tilted by less than any rounding, so that every quotient is finite.
   const vec3 least = vec3(max(largest * 8.6736174e-19, 7.8886091e-31));

@@ -19,6 +19,9 @@ const uint kSampledLightResolveReceiversUnit = 0u;
 const uint kSampledLightResolveLitCountsImage = 0u;
 const uint kSampledLightResolveVisibilityImage = 1u;
 
+// Distribution ray tracing.
+const uint kDistributionSumImage = 0u;
+
 // Shadow rays (ComputeTracer). Doubles one by one: a dvec3 would be padded.
 const uint kShadowRayLightBuffer = 0u;
 const uint kShadowRayOutlineBuffer = 1u;

@@ -29,10 +29,20 @@ void mapWorld(Scene& scene, Map map) {
   for (BicubicPatch& patch : scene.patches)
     for (glm::dvec3& point : patch.points) point = map(point);
   // p -> a p + b of w p: a map of positions is affine here, directions (w = 0) lose the translation.
-  for (glm::dvec4& point : scene.surfaces.points)
-    point = glm::dvec4(point.w == 0.0 ? map(glm::dvec3(point)) - map(glm::dvec3(0.0))
-                                      : map(glm::dvec3(point) / point.w) * point.w,
-                       point.w);
+  const auto mapPoints = [&](std::vector<glm::dvec4>& points) {
+    for (glm::dvec4& point : points)
+      point = glm::dvec4(point.w == 0.0 ? map(glm::dvec3(point)) - map(glm::dvec3(0.0))
+                                        : map(glm::dvec3(point) / point.w) * point.w,
+                         point.w);
+  };
+  mapPoints(scene.surfaces.points);
+  for (surfaces::SubdivisionSurface& surface : scene.subdivisions) {
+    for (glm::dvec3& point : surface.cage.points) point = map(point);
+    for (surfaces::Joint& joint : surface.joints) joint.pivot = map(joint.pivot);
+  }
+  for (NurbsPart& part : scene.nurbs) mapPoints(part.surface.points);
+  for (const auto member : {&surfaces::PatchMotion::sine, &surfaces::PatchMotion::cosine})
+    for (glm::dvec3& vector : scene.surfaces.motion.*member) vector = map(vector) - map(glm::dvec3(0.0));
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);

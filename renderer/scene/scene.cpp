@@ -67,6 +67,26 @@ void feedSurfaces(Feed& out, const surfaces::PatchSet& set) {
   for (const auto& sides : set.neighbours)
     for (const surfaces::Neighbour& side : sides)
       out.value(side.patch), out.value(side.side), out.value(static_cast<uint8_t>(side.reversed));
+  for (const surfaces::TrimRegion& region : set.trims)
+    for (const std::vector<glm::dvec2>& loop : region.loops) out.text("trim"), out.outline(loop);
+  for (const surfaces::PatchTrim& trim : set.trimOf)
+    out.value(trim.region), out.vector(trim.low), out.vector(trim.high);
+  if (set.motion.moves())
+    out.value(set.motion.periodS), out.array(set.motion.sine), out.array(set.motion.cosine);
+}
+
+void feedSubdivision(Feed& out, const surfaces::SubdivisionSurface& surface) {
+  out.text("subdivision"), out.array(surface.cage.points), out.value(static_cast<uint8_t>(surface.scheme));
+  out.value(surface.part);
+  for (const std::vector<uint32_t>& face : surface.cage.faces) out.array(face);
+  for (const auto& [edge, sharpness] : surface.cage.sharpness)
+    out.value(edge[0]), out.value(edge[1]), out.value(sharpness);
+  for (const surfaces::Joint& joint : surface.joints) {
+    out.vector(joint.pivot), out.vector(joint.axis);
+    out.value(joint.amplitudeRad), out.value(joint.periodS), out.value(joint.phaseRad);
+  }
+  for (const surfaces::JointBinding& binding : surface.bindings)
+    out.value(binding.joint), out.value(binding.weight);
 }
 
 /// What only some scenes have. Each is preceded by its own keyword, so that scenes without it keep their
@@ -110,6 +130,10 @@ void feedExtras(Feed& out, const Scene& scene) {
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
   if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
+  if (scene.items)
+    out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
+        out.value(scene.items->buckets);
+  for (const surfaces::SubdivisionSurface& surface : scene.subdivisions) feedSubdivision(out, surface);
   if (scene.lodObjects.empty()) return;
   out.text("coarser"), out.array(scene.coarser.positions), out.array(scene.coarser.triangles);
   out.array(scene.coarser.normals), out.array(scene.coarser.attributes);
@@ -178,6 +202,11 @@ std::set<std::string> Scene::traits() const {
   if (camera.keys.size() > 1) out.insert("moving_camera");
   if (!lodObjects.empty()) out.insert("lod_sets");
   if (!surfaces.empty()) out.insert("curved_surfaces");
+  if (!nurbs.empty()) out.insert("nurbs");
+  if (surfaces.motion.moves()) out.insert("moving_surfaces");
+  if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
+  if (items) out.insert("item_stream");
+  if (!subdivisions.empty()) out.insert("subdivision_surfaces");
   for (const Part& part : parts) {
     out.insert(part.receiverOnly ? "receiver_only_parts" : "casters");
     const Material& material = materials[part.material];

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,8 +13,11 @@
 #include "experiments/base/parameter_list.h"
 #include "experiments/base/registry.h"
 #include "experiments/base/settings_table.h"
+#include "renderer/scene/item_stream.h"
 #include "renderer/scene/material.h"
+#include "renderer/surfaces/nurbs.h"
 #include "renderer/surfaces/patch_set.h"
+#include "renderer/surfaces/subdivision_surface.h"
 
 namespace limen::scene {
 
@@ -135,6 +139,13 @@ struct LodObject {
   Bounds bounds;  ///< of all levels
 };
 
+/// A part that is one NURBS surface.
+struct NurbsPart {
+  surfaces::NurbsSurface surface;
+  uint32_t part = 0;        ///< of Scene::parts
+  uint32_t firstPatch = 0;  ///< of Scene::surfaces: its Bézier patches, row by row
+};
+
 /// A world to render. Built by a registered scene; constant afterwards.
 struct Scene {
   std::string name;
@@ -147,10 +158,15 @@ struct Scene {
   /// Curved surfaces. `mesh` holds a tessellation of each of their parts, so that renderers that know
   /// triangles alone render the scene as well.
   surfaces::PatchSet surfaces;
+  std::vector<NurbsPart> nurbs;  ///< that some of `surfaces` come from
+  /// Control meshes of subdivision surfaces. `mesh`, and `surfaces` if it has any of their part, hold what
+  /// stands in for them.
+  std::vector<surfaces::SubdivisionSurface> subdivisions;
   /// Objects that come in several levels of detail. `mesh` holds their finest level, so that renderers
   /// without LOD support render the finest scene; parts that belong to no object are background.
   std::vector<LodObject> lodObjects;
-  Mesh coarser;  ///< all other levels; its triangles index its own vertices
+  Mesh coarser;                     ///< all other levels; its triangles index its own vertices
+  std::optional<ItemStream> items;  ///< for techniques of streams, which render nothing
 
   Bounds bounds() const;        ///< of all finite positions
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
@@ -160,8 +176,9 @@ struct Scene {
   TriangleRange triangles(const LodObject& object, int level) const;
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
-  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces"; of its
-  /// parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
+  /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
+  /// "nurbs", "subdivision_surfaces", "trimmed_surfaces", "moving_surfaces", "item_stream"; of its parts'
+  /// materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
 

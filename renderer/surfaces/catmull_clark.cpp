@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "renderer/surfaces/dart_limit.h"
 #include "renderer/surfaces/sharpness_rules.h"
 
 namespace limen::surfaces {
@@ -185,8 +187,17 @@ LimitPoints catmullClarkLimit(const PolygonMesh& mesh, Fans fans) {
     }
     const std::vector<uint32_t> sharp = sharpEnds(mesh, topology, v);
     const size_t n = ring.faces.size();
-    const bool smooth = sharp.size()<2, corner = sharp.size()> 2 || (!ring.closed && n == 1);
-    if (smooth) {
+    const bool smooth = sharp.size() < 2;
+    const bool corner = sharp.size() > 2 || (!ring.closed && n == 1);
+    std::optional<DartLimit> dart;
+    if (sharp.size() == 1) {
+      std::vector<glm::dvec3> edges, diagonals;
+      for (const uint32_t end : ring.edges) edges.push_back(mesh.points[end]);
+      for (const uint32_t face : ring.faces) diagonals.push_back(farCorner(mesh, face, v));
+      const auto place = std::find(ring.edges.begin(), ring.edges.end(), sharp[0]) - ring.edges.begin();
+      dart = catmullClarkDart(p, edges, diagonals, static_cast<size_t>(place));
+      out.points.push_back(dart->point);
+    } else if (smooth) {
       glm::dvec3 edges(0.0), diagonals(0.0);
       for (const uint32_t end : ring.edges) edges += mesh.points[end];
       for (const uint32_t face : ring.faces) diagonals += farCorner(mesh, face, v);
@@ -213,7 +224,8 @@ LimitPoints catmullClarkLimit(const PolygonMesh& mesh, Fans fans) {
       const bool last = i + 1 == n;
       if (!(last && smooth)) sector.edges.push_back(mesh.points[ring.edges[(place + 1) % ring.edges.size()]]);
       if (!last && (smooth || !isSharp(place + 1))) continue;
-      const glm::dvec3 across = smooth   ? smoothNormal(sector)
+      const glm::dvec3 across = dart     ? dart->normal
+                                : smooth ? smoothNormal(sector)
                                 : corner ? glm::cross(sector.edges.front() - p, sector.edges.back() - p)
                                          : creaseNormal(p, sector);
       const double length = glm::length(across);

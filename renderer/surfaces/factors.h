@@ -57,6 +57,9 @@ enum class CurveSize {
   Rockwood,  ///< degree times the largest distance of successive control points: bounds |c'|
   Kumar      ///< length of the vector of the largest |c'_x|, |c'_y|, |c'_z|: bounds all secants
 };
+constexpr EnumNames<CurveSize, 3> enumNames(CurveSize) {
+  return {{{{CurveSize::Chord, "chord"}, {CurveSize::Kumar, "kumar"}, {CurveSize::Rockwood, "rockwood"}}}};
+}
 double sizeOf(CurveSize size, std::span<const glm::dvec3> points);
 
 /// Whole factor of a number of segments, at most `most`; `capped` becomes true if that is too few.

@@ -2,8 +2,10 @@
 #include "renderer/surfaces/loop_subdivision.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "renderer/surfaces/dart_limit.h"
 #include "renderer/surfaces/sharpness_rules.h"
 
 namespace limen::surfaces {
@@ -127,8 +129,16 @@ LoopLimit loopLimit(const PolygonMesh& mesh, Fans fans) {
     out.points.push_back(p);
     if (ring.faces.empty()) continue;
     const std::vector<uint32_t> sharp = sharpEnds(mesh, topology, v);
-    const bool smooth = sharp.size()<2, corner = sharp.size()> 2 || (!ring.closed && ring.faces.size() == 1);
-    if (smooth) {
+    const bool smooth = sharp.size() < 2;
+    const bool corner = sharp.size() > 2 || (!ring.closed && ring.faces.size() == 1);
+    std::optional<DartLimit> dart;
+    if (sharp.size() == 1) {
+      std::vector<glm::dvec3> ends;
+      for (const uint32_t end : ring.edges) ends.push_back(mesh.points[end]);
+      const auto place = std::find(ring.edges.begin(), ring.edges.end(), sharp[0]) - ring.edges.begin();
+      dart = loopDart(p, ends, neighbourWeight(ends.size()), static_cast<size_t>(place));
+      out.points[v] = dart->point;
+    } else if (smooth) {
       glm::dvec3 sum(0.0);
       for (const uint32_t end : ring.edges) sum += mesh.points[end];
       const double own = 0.375 / neighbourWeight(ring.edges.size());
@@ -140,7 +150,8 @@ LoopLimit loopLimit(const PolygonMesh& mesh, Fans fans) {
       std::vector<glm::dvec3> edges;
       for (const size_t place : sector) edges.push_back(mesh.points[ring.edges[place]]);
       if (!smooth) edges.push_back(mesh.points[ring.edges[(sector.back() + 1) % ring.edges.size()]]);
-      const glm::dvec3 across = smooth   ? smoothNormal(edges)
+      const glm::dvec3 across = dart     ? dart->normal
+                                : smooth ? smoothNormal(edges)
                                 : corner ? glm::cross(edges.front() - p, edges.back() - p)
                                          : glm::cross(edges.front() - edges.back(), acrossCrease(p, edges));
       const double length = glm::length(across);

@@ -82,4 +82,20 @@ PatchSet nurbsPatches(const NurbsSurface& surface) {
   return set;
 }
 
+PatchSet trimmedNurbsPatches(const NurbsSurface& surface, TrimRegion region) {
+  PatchSet set = nurbsPatches(surface);
+  const auto ends = [](const std::vector<double>& knots, int degree, int points) {
+    const double low = knots[static_cast<size_t>(degree)], length = knots[static_cast<size_t>(points)] - low;
+    std::vector<glm::dvec2> out;
+    for (const size_t k : spansOf(knots, degree, static_cast<size_t>(points)))
+      out.emplace_back((knots[k] - low) / length, (knots[k + 1] - low) / length);
+    return out;
+  };
+  for (const glm::dvec2 v : ends(surface.knotsV, surface.degreeV, surface.pointsV()))
+    for (const glm::dvec2 u : ends(surface.knotsU, surface.degreeU, surface.pointsU()))
+      set.trimOf.push_back({0, {u.x, v.x}, {u.y, v.y}});
+  set.trims.push_back(std::move(region));
+  return set;
+}
+
 }  // namespace limen::surfaces

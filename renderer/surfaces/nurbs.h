@@ -21,5 +21,7 @@ struct NurbsSurface {
 /// bit. Throws std::invalid_argument: knots that descend or do not match the points, an inner knot of a
 /// multiplicity above the degree, where the surface is torn.
 PatchSet nurbsPatches(const NurbsSurface& surface);
+/// The same of which a region is left; (0, 0) and (1, 1) of its square are the ends of the knots' range.
+PatchSet trimmedNurbsPatches(const NurbsSurface& surface, TrimRegion region);
 
 }  // namespace limen::surfaces

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/surfaces/patch_builder.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace limen::surfaces {
@@ -39,6 +40,26 @@ void append(PatchSet& to, const PatchSet& from) {
              normals = static_cast<uint32_t>(to.normals.size());
   const auto patches = static_cast<int32_t>(to.patches.size());
   const bool neighbours = to.neighbours.size() == to.patches.size() && !from.neighbours.empty();
+  if (!to.trimOf.empty() || !from.trimOf.empty()) {
+    const auto trims = static_cast<int32_t>(to.trims.size());
+    to.trimOf.resize(to.patches.size());
+    to.trims.insert(to.trims.end(), from.trims.begin(), from.trims.end());
+    for (PatchTrim trim : from.trimOf) {
+      if (trim.region >= 0) trim.region += trims;
+      to.trimOf.push_back(trim);
+    }
+    to.trimOf.resize(to.patches.size() + from.patches.size());
+  }
+  if (to.motion.moves() || from.motion.moves()) {
+    assert(!to.motion.moves() || !from.motion.moves() || to.motion.periodS == from.motion.periodS);
+    to.motion.periodS = std::max(to.motion.periodS, from.motion.periodS);
+    for (const auto member : {&PatchMotion::sine, &PatchMotion::cosine}) {
+      std::vector<glm::dvec3>& vectors = to.motion.*member;
+      vectors.resize(to.points.size());
+      vectors.insert(vectors.end(), (from.motion.*member).begin(), (from.motion.*member).end());
+      vectors.resize(to.points.size() + from.points.size());
+    }
+  }
   to.points.insert(to.points.end(), from.points.begin(), from.points.end());
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   for (Patch patch : from.patches) {
@@ -57,6 +78,8 @@ PatchSet transformed(PatchSet set, const glm::dmat4& map) {
   const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(map)));
   for (glm::dvec4& point : set.points) point = map * point;
   for (glm::dvec3& normal : set.normals) normal = turn * normal;
+  for (const auto member : {&PatchMotion::sine, &PatchMotion::cosine})
+    for (glm::dvec3& vector : set.motion.*member) vector = glm::dmat3(map) * vector;
   return set;
 }
 

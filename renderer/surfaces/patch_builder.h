@@ -21,7 +21,7 @@ Patch& addRectangle(PatchSet& set, int degreeU, int degreeV, std::span<const glm
 Patch& addTriangle(PatchSet& set, int degree, std::span<const glm::dvec4> points, int normalDegree = 0,
                    std::span<const glm::dvec3> normals = {});
 
-/// Appends all patches; neighbours, if both have them, as well.
+/// Appends all patches; neighbours, if both have them, as well. If both move, with the same period.
 void append(PatchSet& to, const PatchSet& from);
 
 /// The set under an affine map. Normals of normal fields are turned by its inverse transpose; a map that

@@ -6,6 +6,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/surfaces/patch_motion.h"
+#include "renderer/surfaces/trim_region.h"
+
 namespace limen::surfaces {
 
 /// Parameter domain of a patch. Corners and sides are numbered counter-clockwise in the domain; side s runs
@@ -50,6 +53,12 @@ struct Patch {
   }
 };
 
+/// Which region is left of a rectangle, and the part of the region's unit square that the patch covers.
+struct PatchTrim {
+  int32_t region = -1;  ///< of PatchSet::trims; -1: all is left
+  glm::dvec2 low{0.0}, high{1.0};
+};
+
 /// Curved surfaces of a scene, as patches that know their neighbours.
 struct PatchSet {
   /// Homogeneous: (w x, w y, w z, w), world units; w = 0 gives a direction (x, y, z, 0).
@@ -57,6 +66,9 @@ struct PatchSet {
   std::vector<glm::dvec3> normals;  ///< need not be unit
   std::vector<Patch> patches;
   std::vector<std::array<Neighbour, 4>> neighbours;  ///< one per patch; by side
+  std::vector<TrimRegion> trims;
+  std::vector<PatchTrim> trimOf;  ///< empty, or one per patch
+  PatchMotion motion;
 
   bool empty() const { return patches.empty(); }
 };

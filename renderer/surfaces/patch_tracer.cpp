@@ -28,7 +28,10 @@ std::optional<double> entry(const Ray& ray, dvec3 low, dvec3 high, double margin
 
 }  // namespace
 
-PatchTracer::PatchTracer(const PatchSet& set, RootFinder finder) : set_(set), finder_(finder) {
+PatchTracer::PatchTracer(const PatchSet& set, RootFinder finder) : PatchTracer(set, finder, TrimTest(set)) {}
+
+PatchTracer::PatchTracer(const PatchSet& set, RootFinder finder, TrimTest trims)
+    : set_(set), finder_(finder), trims_(std::move(trims)) {
   for (uint32_t i = 0; i < set.patches.size(); ++i) {
     const Patch& patch = set.patches[i];
     dvec3 low(1e300), high(-1e300);
@@ -97,8 +100,10 @@ std::optional<PatchHit> PatchTracer::nearest(const Ray& ray, double tolerance, R
                                          : finder_ == RootFinder::Intervals
                                              ? intervalRoots(local, tolerance, counts)
                                              : clippedRoots(local, tolerance, {}, counts);
-      if (roots.empty() || (best && roots[0].t >= best->t)) continue;
-      best = {roots[0].t, patch, roots[0].at};
+      const auto root = std::ranges::find_if(
+          roots, [&](const RayRoot& candidate) { return trims_.isLeft(patch, candidate.at); });
+      if (root == roots.end() || (best && root->t >= best->t)) continue;
+      best = {root->t, patch, root->at};
       // A triangle's u and v of the rectangle's x and y: see triangleAsRectangle().
       if (converted) best->at = trianglePoint(best->at.u * best->at.restV, best->at.v);
     }

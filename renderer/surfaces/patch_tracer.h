@@ -5,6 +5,7 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/surfaces/ray_roots.h"
+#include "renderer/surfaces/trim_test.h"
 
 namespace limen::surfaces {
 
@@ -26,6 +27,8 @@ struct PatchHit {
 class PatchTracer {
  public:
   PatchTracer(const PatchSet& set, RootFinder finder);
+  /// `trims`: which places are left, in place of the set's own curves.
+  PatchTracer(const PatchSet& set, RootFinder finder, TrimTest trims);
 
   /// `tolerance`: largest distance of the surface from the ray that may count as a hit.
   std::optional<PatchHit> nearest(const Ray& ray, double tolerance, RootCounts* counts = nullptr) const;
@@ -40,6 +43,7 @@ class PatchTracer {
 
   const PatchSet& set_;
   RootFinder finder_;
+  TrimTest trims_;
   PatchSet rectangles_;  ///< triangles as rectangles, for clipping
   std::vector<Patch> searched_;
   std::vector<glm::dvec3> low_, high_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "renderer/surfaces/domain_point.h"
 #include "renderer/surfaces/patterns.h"
 #include "renderer/surfaces/spacing.h"
@@ -25,6 +27,7 @@ struct TessellatedSurface {
   std::vector<glm::uvec3> triangles;    ///< counter-clockwise in the domain
   std::vector<Factors> factors;         ///< of each patch; 0: culled or left out
   SurfaceView view;
+  std::shared_ptr<const PatchSet> moved;  ///< the surfaces when they were drawn, if they move
 };
 
 /// Place on the surface for a pattern's vertex.

@@ -3,80 +3,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace limen::surfaces {
+
 namespace {
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
-  return glm::length(p - a - t * along);
+/// The x at which a row crosses the curves, ascending, by the rule of TrimRegion::contains().
+std::vector<double> crossingsOf(const TrimRegion& region, double y) {
+  std::vector<double> out;
+  forSegments(region, [&](glm::dvec2 a, glm::dvec2 b) {
+    if ((a.y > y) != (b.y > y)) out.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+  });
+  std::ranges::sort(out);
+  return out;
 }
 
-template <class Visit>
-void forSegments(const TrimRegion& region, Visit visit) {
-  for (const std::vector<glm::dvec2>& loop : region.loops)
-    for (size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+bool isInside(const std::vector<double>& crossings, double x) {
+  return (crossings.end() - std::ranges::upper_bound(crossings, x)) % 2 == 1;
 }
 
 }  // namespace
 
-bool TrimRegion::contains(glm::dvec2 at) const {
-  bool inside = false;
-  forSegments(*this, [&](glm::dvec2 a, glm::dvec2 b) {
-    if ((a.y > at.y) == (b.y > at.y)) return;
-    if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  });
-  return inside;
-}
-
-double TrimRegion::area() const {
-  // A loop inside an odd number of others is a hole.
-  double sum = 0.0;
-  for (size_t i = 0; i < loops.size(); ++i) {
-    double twice = 0.0;
-    for (size_t k = 0; k < loops[i].size(); ++k)
-      twice += cross(loops[i][k], loops[i][(k + 1) % loops[i].size()]);
-    TrimRegion others = *this;
-    others.loops.erase(others.loops.begin() + static_cast<long>(i));
-    sum += 0.5 * std::abs(twice) * (others.contains(loops[i][0]) ? -1.0 : 1.0);
-  }
-  return sum;
-}
-
-std::vector<glm::dvec2> trimLoop(std::span<const std::vector<glm::dvec3>> curves, int segments) {
-  std::vector<glm::dvec2> out;
-  for (const std::vector<glm::dvec3>& curve : curves)
-    for (int i = 0; i < segments; ++i) {
-      const double t = double(i) / segments;
-      std::vector<glm::dvec3> points = curve;
-      for (size_t n = points.size() - 1; n > 0; --n)
-        for (size_t k = 0; k < n; ++k) points[k] = glm::mix(points[k], points[k + 1], t);
-      out.push_back(glm::dvec2(points[0]) / points[0].z);
-    }
-  return out;
-}
-
 TrimMask::TrimMask(const TrimRegion& region, int resolution, TrimTexture texture)
     : resolution_(resolution), texture_(texture) {
-  for (int y = 0; y < resolution; ++y)
+  const auto middle = [&](int texel) { return (texel + 0.5) / resolution; };
+  const bool distances = texture == TrimTexture::Distance;
+  const double reach = 4.0 / resolution;
+  for (int y = 0; y < resolution; ++y) {
+    const std::vector<double> crossings = crossingsOf(region, middle(y));
     for (int x = 0; x < resolution; ++x) {
-      const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / double(resolution);
-      const bool inside = region.contains(at);
-      if (texture == TrimTexture::Inside) {
-        texels_.push_back(inside ? 1.0F : 0.0F);
-        continue;
-      }
-      double nearest = std::numeric_limits<double>::max();
-      forSegments(region, [&](glm::dvec2 a, glm::dvec2 b) {
-        nearest = std::min(nearest, distanceToSegment(at, a, b));
-      });
-      texels_.push_back(float(inside ? nearest : -nearest));
+      const bool inside = isInside(crossings, middle(x));
+      texels_.push_back(distances ? float(inside ? reach : -reach) : inside ? 1.0F : 0.0F);
     }
+  }
+  if (!distances) return;
+  forSegments(region, [&](glm::dvec2 a, glm::dvec2 b) {
+    const auto first = [&](double at) { return std::max(0, int(std::floor((at - reach) * resolution))); };
+    const auto last = [&](double at) {
+      return std::min(resolution - 1, int(std::ceil((at + reach) * resolution)));
+    };
+    for (int y = first(std::min(a.y, b.y)); y <= last(std::max(a.y, b.y)); ++y)
+      for (int x = first(std::min(a.x, b.x)); x <= last(std::max(a.x, b.x)); ++x) {
+        float& held = texels_[static_cast<size_t>(x + resolution * y)];
+        const auto distance = float(distanceToSegment({middle(x), middle(y)}, a, b));
+        if (distance < std::abs(held)) held = std::copysign(distance, held);
+      }
+  });
 }
 
 float TrimMask::texel(int x, int y) const {
@@ -97,11 +69,13 @@ bool TrimMask::contains(glm::dvec2 at) const {
 
 double trimError(const TrimRegion& region, const TrimMask& mask, int samples) {
   int64_t wrong = 0;
-  for (int y = 0; y < samples; ++y)
+  for (int y = 0; y < samples; ++y) {
+    const std::vector<double> crossings = crossingsOf(region, (y + 0.5) / samples);
     for (int x = 0; x < samples; ++x) {
       const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / double(samples);
-      wrong += region.contains(at) != mask.contains(at);
+      wrong += isInside(crossings, at.x) != mask.contains(at);
     }
+  }
   return double(wrong) / (double(samples) * samples);
 }
 

@@ -1,37 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trimmed surfaces: what is left of a parameter domain inside closed curves (Schwarz 2009, section 6.1.4;
-// SC-18).
+// Trimming by a texture over the parameter domain (Schwarz 2009, section 6.1.4; SC-18).
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <span>
 #include <vector>
 
+#include "experiments/base/enum_names.h"
+#include "renderer/surfaces/trim_region.h"
+
 namespace limen::surfaces {
-
-/// Closed curves in the unit square as polygons. A place is left if it lies inside an odd number of them.
-struct TrimRegion {
-  std::vector<std::vector<glm::dvec2>> loops;
-  bool contains(glm::dvec2 at) const;
-  double area() const;  ///< between the polygons; loops must not cross one another
-};
-
-/// Polygon of a closed chain of Bézier curves, rational if weights (z) differ: homogeneous (w x, w y, w).
-/// Each ends where the next begins; `segments` of each.
-std::vector<glm::dvec2> trimLoop(std::span<const std::vector<glm::dvec3>> curves, int segments);
 
 /// What a texture over the domain holds.
 enum class TrimTexture {
   Inside,   ///< 1 where the texel's middle is left
-  Distance  ///< signed distance to the nearest curve, positive where the surface is left; interpolated
+  Distance  ///< signed distance to the nearest curve, positive where the surface is left, up to four texels;
+            ///< interpolated
 };
+constexpr EnumNames<TrimTexture, 2> enumNames(TrimTexture) {
+  return {{{{TrimTexture::Distance, "distance"}, {TrimTexture::Inside, "inside"}}}};
+}
 
 /// A region sampled by a square texture, as a shader reads it.
 class TrimMask {
  public:
   TrimMask(const TrimRegion& region, int resolution, TrimTexture texture);
   bool contains(glm::dvec2 at) const;
+  int resolution() const { return resolution_; }
+  const std::vector<float>& texels() const { return texels_; }  ///< rows of rising v
   int64_t bytes() const {
     return static_cast<int64_t>(texels_.size()) * (texture_ == TrimTexture::Inside ? 1 : 2);
   }

@@ -17,6 +17,8 @@ std::string toText(ProductKind kind) {
       return "visibility_change";
     case ProductKind::JndMap:
       return "jnd_map";
+    case ProductKind::Stream:
+      return "stream";
   }
   return {};
 }

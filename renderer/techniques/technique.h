@@ -31,8 +31,12 @@ enum class ProductKind {
                 ///< have; alpha 1
   VisibilityChange,  ///< R32F, Visibility minus that of an earlier frame, -1..1, or the mean size of such
                      ///< changes, 0..1; 0 where either frame has no receiver
-  JndMap             ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
+  JndMap,            ///< R32F, visible difference between two frames [JND], >= 0, at every pixel
+  Stream  ///< R32F, not a picture: the numbers of items row by row, then kStreamEnd; of a size of its
+          ///< own. Whole numbers below 2^24, which floats hold exactly
 };
+/// Follows the last item of a Stream.
+inline constexpr float kStreamEnd = -1.0F;
 std::string toText(ProductKind kind);
 
 /// A machine-independent figure that a technique counts. Title, unit and direction are in the Quantity that
@@ -65,8 +69,8 @@ class Technique {
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }
-  /// The scene's curved surfaces as last drawn; null unless TechniqueInfo::tessellates. Called after render(),
-  /// outside the timed frames; waits for the GPU.
+  /// The scene's curved surfaces as last drawn; null unless TechniqueInfo::tessellates. Called after
+  /// render(), outside the timed frames; waits for the GPU.
   virtual std::shared_ptr<const surfaces::TessellatedSurface> tessellation(frame::Frame&) { return nullptr; }
   /// Pictures that explain the product, for artefacts and reports; called outside the timed frames, after
   /// render() and count(); may wait for the GPU.

@@ -82,6 +82,20 @@ TEST(PixelErrors, RegionsSelectPixels) {
   EXPECT_DOUBLE_EQ(penumbra.value, 0.125);
 }
 
+TEST(PixelErrors, ReflectorsAreThePixelsThatSeeMirrors) {
+  // Receivers: the first three pixels. Mirrors: the third and fourth.
+  const Image mask = makeImage(4, 1, 1, {1.0F, 1.0F, 1.0F, 0.0F});
+  const Image mirrors = makeImage(4, 1, 1, {0.0F, 0.0F, 1.0F, 1.0F});
+  const Image reference = makeImage(4, 1, 1, {1.0F, 0.5F, 0.25F, 0.5F});
+  const Image test = makeImage(4, 1, 1, {0.0F, 0.75F, 0.0F, 1.0F});  // errors -1, 1/4, -1/4, 1/2
+  ComparisonInput input = pairOf(test, reference, &mask);
+  EXPECT_THROW(measure("mae", input, {{"region", region("reflectors")}}), Error);
+  input.mirrors = &mirrors;
+  const MetricResult result = measure("mae", input, {{"region", region("reflectors")}});
+  EXPECT_EQ(result.evaluatedPixels, 2);
+  EXPECT_DOUBLE_EQ(result.value, 0.375);
+}
+
 TEST(PixelErrors, EmptyRegionIsEvaluatedPerfectAndSaysSo) {
   const Image mask(2, 2, 1, 0.0F), reference(2, 2, 1, 1.0F), test(2, 2, 1, 0.0F);
   for (const std::string& name : kErrors) {

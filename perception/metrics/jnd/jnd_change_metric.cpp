@@ -48,6 +48,9 @@ void include(JndFigures& worst, const JndFigures& step) {
 }
 
 MetricResult measureChange(const ComparisonInput& input, const ChangeSettings& settings) {
+  if (settings.jnd.region.region == Region::Reflectors)
+    throw Error("metric 'jnd_change' does not know which pixels see mirrors along a path", {},
+                "use region: all");
   const Comparison pair(input, kChangeName, settings.jnd.region.region);
   requireShown(input, kChangeName);
   if (!input.path) throw Error("metric 'jnd_change' needs frames of a scene", {}, "run it in a sweep");

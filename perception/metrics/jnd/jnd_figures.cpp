@@ -20,7 +20,7 @@ std::vector<Quantity> jndQuantities(const std::string& of) {
 
 std::vector<double> jndValues(const JndFigures& figures) {
   return {figures.p95Jnd,      figures.medianJnd, figures.largestJnd,
-          figures.shareAbove1, figures.rating, figures.detection};
+          figures.shareAbove1, figures.rating,    figures.detection};
 }
 
 MetricPicture regionPicture(const std::string& name, const Image& shown, const RegionMap& regions) {
@@ -33,7 +33,7 @@ MetricPicture regionPicture(const std::string& name, const Image& shown, const R
 void requireShown(const ComparisonInput& input, const std::string& metric) {
   if (!input.gpu)
     throw Error("metric '" + metric + "' needs an OpenGL context", {}, "run it on a machine with OpenGL 4.5");
-  if (input.depicts == Depicts::Nothing)
+  if (input.depicts == Depicts::Nothing || input.depicts == Depicts::Items)
     throw Error("metric '" + metric + "' evaluates pictures, and this product is not one that a viewer sees",
                 {}, "remove it for techniques whose product is a threshold, a change or a map");
   if (input.depicts == Depicts::ShareOfLight && (!input.surfaces || !input.surfaces->albedo))

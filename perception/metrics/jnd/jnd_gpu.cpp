@@ -100,7 +100,9 @@ void JndGpu::show(const gl::Program& program, const PathFrame& frame, Depicts de
   program.set("ambient", static_cast<float>(settings_.shown.ambient));
   program.set("diffuse", static_cast<float>(settings_.shown.diffuse));
   program.set("background", static_cast<float>(settings_.shown.background));
-  program.set("region", static_cast<int>(settings_.region.region));
+  // The mask is that of the region.
+  const Region region = settings_.region.region;
+  program.set("region", static_cast<int>(region == Region::Reflectors ? Region::Receivers : region));
   program.set("hasMask", frame.mask ? 1 : 0);
   program.dispatch(sizePx_);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -26,7 +26,7 @@ MetricResult measureJnd(const ComparisonInput& input, const JndSettings& setting
   PathFrame frame;
   frame.test = test ? &*test : input.testTexture;
   frame.reference = reference ? &*reference : input.referenceTexture;
-  frame.mask = jnd.upload(input.mask);
+  frame.mask = jnd.upload(settings.region.region == Region::Reflectors ? input.mirrors : input.mask);
   if (input.surfaces) frame.surfaces = *input.surfaces;
   jnd.run(frame, input.depicts);
 

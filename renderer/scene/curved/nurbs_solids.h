@@ -23,7 +23,10 @@ struct NurbsSolid {
   std::string name;
   surfaces::PatchSet patches;
   glm::vec3 albedo;
+  surfaces::NurbsSurface surface = {};  ///< that the patches come from; of solids that are not trimmed
 };
+/// What the scene curved/trimmed shows: a sheet with two rings of holes, a ball and a vase with windows.
+std::vector<NurbsSolid> trimmedSolids();
 /// What the scene curved/nurbs_solids shows.
 std::vector<NurbsSolid> nurbsSolids();
 

@@ -123,7 +123,28 @@ struct NurbsSettings {
 Scene buildNurbs(const NurbsSettings& settings) {
   Scene scene;
   addGround(scene, 12.0);
-  for (const NurbsSolid& solid : nurbsSolids())
+  for (const NurbsSolid& solid : nurbsSolids()) {
+    scene.nurbs.push_back({solid.surface, static_cast<uint32_t>(scene.parts.size()),
+                           static_cast<uint32_t>(scene.surfaces.patches.size())});
+    addSurface(scene, solid.name, solid.patches, settings.tessellation, solid.albedo);
+  }
+  frameStanding(scene, 1.0, 1.3);
+  return scene;
+}
+
+struct TrimmedSettings {
+  int tessellation = 16;
+  static const SettingsTable<TrimmedSettings>& table() {
+    static const SettingsTable<TrimmedSettings> kTable = {
+        {&TrimmedSettings::tessellation, "tessellation", {1, 32}, "segments", kPatchSegments}};
+    return kTable;
+  }
+};
+
+Scene buildTrimmed(const TrimmedSettings& settings) {
+  Scene scene;
+  addGround(scene, 12.0);
+  for (const NurbsSolid& solid : trimmedSolids())
     addSurface(scene, solid.name, solid.patches, settings.tessellation, solid.albedo);
   frameStanding(scene, 1.0, 1.3);
   return scene;
@@ -156,6 +177,13 @@ const RegisteredScene<NurbsSettings> kNurbs{
      .summary = "Solids from NURBS of degrees 2 to 5, uneven and multiple knots, turned into Bézier patches",
      .source = "Schwarz 2009, section 6.1.4"},
     buildNurbs};
+
+const RegisteredScene<TrimmedSettings> kTrimmed{
+    {.name = "curved/trimmed",
+     .version = 1,
+     .summary = "The solids of curved/nurbs_solids with holes, trimmed by rational curves in their domains",
+     .source = "Schwarz 2009, section 6.1.4"},
+    buildTrimmed};
 
 }  // namespace
 }  // namespace limen::scene

@@ -68,13 +68,19 @@ constexpr EnumNames<StarView, 2> enumNames(StarView) {
 struct StarFieldSettings {
   CurvedForm form;
   StarView view = StarView::Overview;
-  int tessellation = 4;
+  int layers = 13, tessellation = 4;
   int64_t seed = 1;
   static const SettingsTable<StarFieldSettings>& table() {
     using S = StarFieldSettings;
     static const SettingsTable<S> kTable = {
         formBinding(&S::form),
         {&S::view, "view", "All stars, or a few of them that fill the picture"},
+        {&S::layers,
+         "layers",
+         {1, 13},
+         "",
+         "Layers of 19 x 7 stars, one behind the other",
+         "Schwarz 2009, Table 7.6 (41,496 triangles: 13)"},
         {&S::tessellation, "tessellation", {1, 8}, "segments", kSegments},
         {&S::seed, "seed", {0, 1000000}, "", "Seed of places and rotations"}};
     return kTable;
@@ -98,22 +104,21 @@ BaseMesh star() {
   return mesh;
 }
 
-/// A box of 19 x 7 x 13 stars, each turned and moved at random within its cell.
-constexpr glm::ivec3 kStars{19, 7, 13};
-
+/// Layers of 19 x 7 stars, each turned and moved at random within its cell.
 Scene buildStarField(const StarFieldSettings& settings) {
+  const glm::ivec3 stars(19, 7, settings.layers);
   const BaseMesh one = star();
   Random random(settings.seed);
   BaseMesh field;
   constexpr double kCell = 0.25, kRadius = 0.085;
-  for (int z = 0; z < kStars.z; ++z)
-    for (int y = 0; y < kStars.y; ++y)
-      for (int x = 0; x < kStars.x; ++x) {
+  for (int z = 0; z < stars.z; ++z)
+    for (int y = 0; y < stars.y; ++y)
+      for (int x = 0; x < stars.x; ++x) {
         const glm::dvec3 axis = random.direction();
         const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), random.uniform(0.0, 2.0 * M_PI), axis));
         const glm::dvec3 shift = random.direction() * random.uniform(0.0, 0.5 * kCell - kRadius);
-        const glm::dvec3 cell((x - 0.5 * (kStars.x - 1)) * kCell, 0.3 + (y + 0.5) * kCell,
-                              (z - 0.5 * (kStars.z - 1)) * kCell);
+        const glm::dvec3 cell((x - 0.5 * (stars.x - 1)) * kCell, 0.3 + (y + 0.5) * kCell,
+                              (z - 0.5 * (stars.z - 1)) * kCell);
         const auto first = static_cast<uint32_t>(field.positions.size());
         for (const glm::dvec3& p : one.positions)
           field.positions.push_back(cell + shift + kRadius * (turn * p));
@@ -126,9 +131,9 @@ Scene buildStarField(const StarFieldSettings& settings) {
   Scene scene;
   addGround(scene, 21.0);
   addSurface(scene, "stars", curvedSet(field, settings.form), settings.tessellation, {0.75F, 0.68F, 0.4F});
-  const double height = 0.3 + kStars.y * kCell;
-  frameStanding(scene, height, 0.5 * kStars.x * kCell);
-  const glm::dvec3 middle(0.0, 0.55 * height, 0.0), corner(0.3, 0.7 * height, 0.5 * kStars.z * kCell);
+  const double height = 0.3 + stars.y * kCell;
+  frameStanding(scene, height, 0.5 * stars.x * kCell);
+  const glm::dvec3 middle(0.0, 0.55 * height, 0.0), corner(0.3, 0.7 * height, 0.5 * stars.z * kCell);
   setStillCamera(scene, settings.view == StarView::Overview ? orbitCamera(middle, 8.0, 20.0, 40.0)
                                                             : orbitCamera(corner, 1.0, 20.0, 15.0, 45.0));
   return scene;

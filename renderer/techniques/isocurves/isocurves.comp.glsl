@@ -12,6 +12,7 @@ layout(binding = kIsocurveNormalsImage, rgba32f) uniform writeonly image2D norma
 #endif
 #ifdef COUNTING
 layout(binding = kIsocurveCountsImage, r32ui) uniform uimage2D counts;
+layout(std430, binding = kIsocurveDriftBuffer) buffer Drift { uint mostDrift, mostSteps; };
 #endif
 
 uniform mat4 anchorToClip;
@@ -60,6 +61,19 @@ void plot(vec4 p, float u, float v) {
   imageAtomicAdd(counts, pixel, 1u);
 #endif
 }
+
+#ifdef COUNTING
+// How far a point by differences lies from the curve's, which is evaluated in double precision.
+void measureDrift(vec4 c[4], vec4 found, uint at, uint whole, uint steps) {
+  atomicMax(mostSteps, steps);
+  const double t = double(at) / double(whole), s = double(whole - at) / double(whole);
+  const dvec4 exact =
+      s * s * s * dvec4(c[0]) + 3.0 * s * s * t * dvec4(c[1]) + 3.0 * s * t * t * dvec4(c[2]) + t * t * t * dvec4(c[3]);
+  if (!(exact.w >= double(nearest) && found.w > 0.0)) return;
+  const dvec2 off = dvec2(found.xy) / double(found.w) - exact.xy / exact.w;
+  atomicMax(mostDrift, floatBitsToUint(length(vec2(off))));
+}
+#endif
 
 struct Walk {
   vec4 p, d1, d2, d3;  // point, and differences to the next ones
@@ -124,6 +138,9 @@ void main() {
       since = 0u;
     }
     plot(w.p, float(at) / float(whole), v);
+#ifdef COUNTING
+    measureDrift(c, w.p, at, whole, whole / width);
+#endif
     if (max(moved, there) < 0.5 * spacing && at % (2u * width) == 0u && at + 2u * width <= whole) {
       w.d1 = 2.0 * w.d1 + w.d2;
       w.d2 = 4.0 * (w.d2 + w.d3);
@@ -137,6 +154,9 @@ void main() {
   for (uint i = 0u; i <= steps; ++i) {
     if (i % restart == 0u) w = walkFrom(c, float(i) / float(steps), 1.0 / float(steps));
     plot(w.p, float(i) / float(steps), v);
+#ifdef COUNTING
+    measureDrift(c, w.p, i, steps, steps);
+#endif
     step_(w);
   }
 #endif

@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "renderer/frame/g_buffer.h"
@@ -115,11 +116,17 @@ class Isocurves : public Technique {
     const gl::Texture counts(gl::Format::R32UI, frame.sizePx());
     counts.clearUint(glm::uvec4(0));
     counts.bindImage(kIsocurveCountsImage, gl::Access::ReadWrite);
+    const gl::Buffer drift(std::vector<uint32_t>{0, 0});
+    drift.bindStorage(kIsocurveDriftBuffer);
     walk(frame, *countingProgram_);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     double points = 0.0, covered = 0.0;
     for (const uint32_t one : counts.readUint()) points += one, covered += one > 0;
-    std::vector<Counter> out = {{"points_per_px", points / std::max(covered, 1.0)}};
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    const std::vector<uint32_t> measured = drift.read<uint32_t>();
+    std::vector<Counter> out = {{"points_per_px", points / std::max(covered, 1.0)},
+                                {"drift_px", double(std::bit_cast<float>(measured[0]))},
+                                {"steps_most", double(measured[1])}};
     if (settings_.check) std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
     return out;
   }
@@ -127,7 +134,11 @@ class Isocurves : public Technique {
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
     return withHitQuantities(
-        {{"points_per_px", "Points on curves, mean of the pixels with any", "points/px", lower}});
+        {{"points_per_px", "Points on curves, mean of the pixels with any", "points/px", lower},
+         {"drift_px", "Distance of points by differences from the curve in double precision, largest", "px",
+          lower},
+         {"steps_most", "Steps of the finest curve, or of the finest part of one, over the whole domain",
+          "steps", Direction::Neither}});
   }
 
  private:

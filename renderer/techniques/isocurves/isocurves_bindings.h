@@ -16,6 +16,7 @@ const uint kIsocurveDepthImage = 0u;  // reversed depth as bits, 0: nothing
 const uint kIsocurveIdsImage = 1u;
 const uint kIsocurveNormalsImage = 2u;
 const uint kIsocurveCountsImage = 3u;  // points that fell into the pixel
+const uint kIsocurveDriftBuffer = 3u;  // largest drift, px, as bits; most steps of a curve
 
 #ifdef __cplusplus
 }  // namespace limen::techniques

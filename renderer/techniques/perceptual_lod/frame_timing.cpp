@@ -33,7 +33,8 @@ double medianFrameMs(frame::Frame& frame, const std::function<void()>& render, c
     renderOne(frame, render);
     if (i == 0) glFinish();
   }
-  frame.passes().startRecording(software ? gl::Clock::Wall : gl::Clock::Gpu, timed.frames);
+  frame.passes().startRecording(software ? gl::Clock::Wall : gl::Clock::Gpu, timed.frames,
+                                gl::Recorded::Frames);
   start = Clock::now();
   for (int i = 0; i < timed.frames && (i < 2 || secondsSince(start) < kTimingSeconds); ++i) {
     renderOne(frame, render);

@@ -35,8 +35,8 @@ std::vector<Counter> hitCounters(frame::Frame& frame, const Image& seen) {
   // Only what is not proven to cross the ray depends on it.
   constexpr double kExactPx = 1e-6;
   const surfaces::SurfaceView view = viewOf(frame);
-  const ExactView exact =
-      exactView(frame.scene().surfaces, surfaces::RootFinder::Intervals, view, frame.sizePx(), kExactPx);
+  const ExactView exact = exactView(surfaces::movedTo(frame.scene().surfaces, frame.timeS()),
+                                    surfaces::RootFinder::Intervals, view, frame.sizePx(), kExactPx);
   return hitCounters(compareHits(exact, view, seenDistances(seen)));
 }
 

@@ -21,11 +21,15 @@ ViewRay viewRay(const surfaces::SurfaceView& view, glm::ivec2 pixel, glm::ivec2 
 
 ExactView exactView(const surfaces::PatchSet& set, surfaces::RootFinder finder,
                     const surfaces::SurfaceView& view, glm::ivec2 sizePx, double tolerancePx) {
+  return exactView(set, surfaces::PatchTracer(set, finder), view, sizePx, tolerancePx);
+}
+
+ExactView exactView(const surfaces::PatchSet& set, const surfaces::PatchTracer& tracer,
+                    const surfaces::SurfaceView& view, glm::ivec2 sizePx, double tolerancePx) {
   double depth = 1e300;
   for (const glm::dvec4& p : set.points)
     depth = std::min(depth, glm::dot(glm::dvec3(p) / p.w - view.eye, view.forward));
   const double tolerance = tolerancePx * std::max(depth, view.nearest) / view.pxAtDistance;
-  const surfaces::PatchTracer tracer(set, finder);
   ExactView out;
   out.sizePx = sizePx;
   out.pixels.resize(static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y));

@@ -54,6 +54,9 @@ struct ExactView {
 /// `tolerancePx`: distance from the ray, in pixels where the surface is nearest, at which it counts as hit.
 ExactView exactView(const surfaces::PatchSet& set, surfaces::RootFinder finder,
                     const surfaces::SurfaceView& view, glm::ivec2 sizePx, double tolerancePx);
+/// The same with a tracer of the set.
+ExactView exactView(const surfaces::PatchSet& set, const surfaces::PatchTracer& tracer,
+                    const surfaces::SurfaceView& view, glm::ivec2 sizePx, double tolerancePx);
 
 /// A picture's hits compared with the exact ones.
 struct HitErrors {

@@ -20,6 +20,27 @@ const uint kComposeLocalUnit = 3u;
 const uint kComposeReflectedUnit = 4u;
 const uint kComposeImage = 1u;
 
+// Views of mirrors and reflectors (ViewRaster).
+const uint kViewGroupsBuffer = 6u;
+const uint kViewMaskUnit = 0u;
+
+// Planar mirrors: the ray of each pixel between two bounces.
+const uint kPlanarOriginImage = 1u;
+const uint kPlanarDirectionImage = 2u;
+const uint kPlanarShareImage = 3u;
+const uint kPlanarChainImage = 4u;
+
+// Environment map, and what became of each pixel's ray in it.
+const uint kEnvironmentIdsUnit = 0u;
+const uint kEnvironmentCubeUnit = 3u;
+const uint kEnvironmentFacesUnit = 4u;
+const uint kEnvironmentFateImage = 1u;
+const uint kEnvironmentNoRay = 0u;
+const uint kEnvironmentMet = 1u;
+const uint kEnvironmentMetBehindCrack = 2u;  // and slipped behind a border before
+const uint kEnvironmentCrack = 3u;           // met nothing after that
+const uint kEnvironmentMissed = 4u;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif

@@ -40,6 +40,28 @@ const SettingsTable<BySegments>& BySegments::table() {
   return kTable;
 }
 
+const SettingsTable<BySize>& BySize::table() {
+  using S = BySize;
+  static const SettingsTable<S> kTable = {
+      {&S::measure, "measure",
+       "Of each side the distance of its ends (chord), or of all curves of a patch a bound on the speed: the "
+       "degree "
+       "times the longest step between control points (rockwood), or between any coordinates of these "
+       "(kumar), "
+       "which "
+       "bounds secants as well",
+       "Schwarz 2009, section 7.4.1"},
+      {&S::segmentPx, "segment_px", {0.25, 256.0}, "px", "Size that a segment may have"},
+      {&S::most, "most", {1, 64}, "segments", "Most segments of a side"}};
+  return kTable;
+}
+
+int FactorSettings::mostSegments() const {
+  if (const auto* uniform = std::get_if<BySegments>(&factors)) return uniform->segments;
+  if (const auto* size = std::get_if<BySize>(&factors)) return size->most;
+  return std::get<ByDeviation>(factors).most;
+}
+
 const SettingsTable<FactorSettings>& FactorSettings::table() {
   using S = FactorSettings;
   static const SettingsTable<S> kTable = {
@@ -66,6 +88,8 @@ gl::ShaderDefines factorDefines(gl::ShaderDefines defines, const FactorSettings&
                              : deviation->triangleRule == TriangleRule::PnTied   ? surfaces::PnBound::Tied
                                                                                  : surfaces::PnBound::Safe));
   if (deviation && deviation->space == FactorSpace::Screen) defines["SCREEN"] = "1";
+  if (const auto* size = std::get_if<BySize>(&settings.factors))
+    defines["SIZE"] = std::to_string(static_cast<int>(size->measure));
   return defines;
 }
 
@@ -96,14 +120,21 @@ FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const F
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
       bounds_((settings.precompute ? int64_t{patches.count()} : 1) * int64_t{sizeof(PatchBounds)}, nullptr) {
   requireBounds(frame.scene());
+  const bool moving = patches.motions() != nullptr;
+  if (moving)
+    moveProgram_ =
+        &frame.context().programs().compute("renderer/techniques/tessellation/move_points.comp.glsl");
   if (!settings.precompute) return;
   patches_.bindStorage();
+  if (moving) patches_.motions()->bindStorage(kPointMotionsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);
   dispatch(frame.context().programs().compute(
-      kFactors, with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS")));
+      kFactors, with(with(factorDefines(patches.defines(), settings), "MAKE_BOUNDS"), "MOVING", moving)));
 }
 
 void FactorPass::requireBounds(const scene::Scene& scene) const {
+  if (settings_.precompute && std::holds_alternative<BySize>(settings_.factors))
+    throw Error("sizes on the screen depend on the view", "precompute", "leave it off");
   const auto* deviation = std::get_if<ByDeviation>(&settings_.factors);
   if (!deviation || deviation->space != FactorSpace::Screen) return;
   if (settings_.precompute)
@@ -138,7 +169,9 @@ void FactorPass::runFactors(frame::Frame& frame, const gl::Program& program) con
                                  : 0.0F);
   program.set("pxAtDistance", static_cast<float>(frame.sizePx().y / (2.0 * frame.tanHalfFov())));
   program.set("tolerancePx", deviation ? static_cast<float>(deviation->tolerancePx) : 0.0F);
-  program.set("mostSegments", deviation ? deviation->most : kMostSegments);
+  if (const auto* size = std::get_if<BySize>(&settings_.factors))
+    program.set("segmentPx", static_cast<float>(size->segmentPx));
+  program.set("mostSegments", uniform ? kMostSegments : settings_.mostSegments());
   program.set("uniformSegments", uniform ? uniform->segments : 0);
   program.set("cull", settings_.cull ? 1 : 0);
   program.set("strict", deviation && deviation->strict ? 1 : 0);
@@ -160,7 +193,21 @@ int64_t FactorPass::countCapped(frame::Frame& frame) const {
   return out;
 }
 
+void FactorPass::movePoints(frame::Frame& frame) const {
+  const auto scope = frame.passes().open("tessellation/motion");
+  patches_.motions()->bindStorage(kPointMotionsBuffer);
+  moveProgram_->set("wave", glm::vec2(frame.scene().surfaces.motion.waveAt(frame.timeS())));
+  moveProgram_->set("pointCount", patches_.pointCount());
+  moveProgram_->use();
+  const uint32_t groups =
+      (patches_.pointCount() + uint32_t(kTessellationGroup) - 1) / uint32_t(kTessellationGroup);
+  glDispatchCompute(groups, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void FactorPass::run(frame::Frame& frame) const {
+  patches_.bindStorage();
+  if (moveProgram_) movePoints(frame);
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);

@@ -71,6 +71,16 @@ struct ByDeviation {
   static const SettingsTable<ByDeviation>& table();
 };
 
+/// Factors from sizes on the screen, of the projected control points (section 7.4.1; SC-54). None of them
+/// bounds the deviation, and a flat patch gets as many segments as a curved one.
+struct BySize {
+  static constexpr const char *kKind = "size", *kSummary = "from sizes on the screen";
+  surfaces::CurveSize measure = surfaces::CurveSize::Rockwood;
+  double segmentPx = 8.0;
+  int most = 64;
+  static const SettingsTable<BySize>& table();
+};
+
 /// The same factor on all sides of all patches.
 struct BySegments {
   static constexpr const char *kKind = "uniform", *kSummary = "the same for all";
@@ -79,11 +89,12 @@ struct BySegments {
 };
 
 struct FactorSettings {
-  std::variant<ByDeviation, BySegments> factors;
+  std::variant<ByDeviation, BySegments, BySize> factors;
   bool cull = true;
   bool cornerFix = true;
   bool precompute = false;
   static const SettingsTable<FactorSettings>& table();
+  int mostSegments() const;  ///< that a side may get
 };
 
 /// Phases 1 and 2 of CudaTess (Schwarz 2009, section 7.6): factors of each patch, of common sides the larger
@@ -93,7 +104,8 @@ class FactorPass {
   /// `lists`: triangles are counted, not indices of strips.
   FactorPass(frame::Frame& frame, const PatchBuffers& patches, const FactorSettings& settings,
              bool lists = false, Spacing spacing = Spacing::Integer);
-  /// Opens the passes tessellation/factors and tessellation/counts. Ends with barriers for shader storage.
+  /// Opens the passes tessellation/factors and tessellation/counts, and before them tessellation/motion,
+  /// which moves the control points, where surfaces move. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
 
   /// Patches whose bound asks for more segments than a side may have, or of which no bound is known: those
@@ -111,10 +123,12 @@ class FactorPass {
   const PatchBuffers& patches_;
   FactorSettings settings_;
   void requireBounds(const scene::Scene& scene) const;
+  void movePoints(frame::Frame& frame) const;
   void dispatch(const gl::Program& program) const;
   void runFactors(frame::Frame& frame, const gl::Program& program) const;
 
   const gl::Program &factorsProgram_, &countsProgram_;
+  const gl::Program* moveProgram_ = nullptr;  // where surfaces move
   gl::Buffer own_, factors_, counts_, bounds_;
 };
 

@@ -26,6 +26,7 @@ uniform int cull, strict;
 uniform float commonDepth;    // > 0: one tolerance for all patches, that of this distance
 uniform float pxAtDistance;   // pixels of a unit at distance 1
 uniform float tolerancePx;
+uniform float segmentPx;      // SIZE: pixels that a segment may have
 
 // What is bounded. SCREEN: pixels, with weights that hold the distance.
 vec4 boundedPoint(int at) {
@@ -155,6 +156,57 @@ float heaviest(int first, int count) {
   return out_;
 }
 
+#ifdef MOVING
+// Over a whole period: p + s a + c b with s^2 + c^2 = 1 is at most |p| + sqrt(|a|^2 + |b|^2), for points and for all
+// differences of them alike. The points themselves are those at rest.
+layout(std430, binding = kPointMotionsBuffer) readonly buffer Motions { PointMotion motions[]; };
+
+float sizeOfSum(ivec4 at, vec4 by, vec3 centre, float reach) {
+  vec4 rest = vec4(0.0);
+  vec3 a = vec3(0.0), b = vec3(0.0);
+  for (int k = 0; k < 4; ++k) {
+    const PointMotion motion = motions[at[k]];
+    rest += by[k] * vec4(motion.rest.xyz - motion.rest.w * centre, motion.rest.w);
+    a += by[k] * motion.sine.xyz;
+    b += by[k] * motion.cosine.xyz;
+  }
+  return size4(rest, reach) + sqrt(dot(a, a) + dot(b, b));
+}
+
+PatchBounds movingBounds(int first, uint shape) {
+  const int m = degreeU(shape), n = degreeV(shape), count = pointCount(shape);
+  PatchBounds out_ = boxOf(first, count);
+  if (out_.finite == 0u) return out_;
+  for (int i = 0; i < count; ++i) {
+    const PointMotion motion = motions[first + i];
+    const vec3 p = projected(motion.rest), a = motion.sine.xyz / motion.rest.w, b = motion.cosine.xyz / motion.rest.w;
+    const vec3 away = sqrt(a * a + b * b);
+    out_.low = min(out_.low, p - away);
+    out_.high = max(out_.high, p + away);
+  }
+  const vec3 centre = 0.5 * (out_.low + out_.high);
+  float reach = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const PointMotion motion = motions[first + i];
+    const vec3 a = motion.sine.xyz / motion.rest.w, b = motion.cosine.xyz / motion.rest.w;
+    reach = max(reach, length(projected(motion.rest) - centre) + sqrt(dot(a, a) + dot(b, b)));
+  }
+  const vec4 bend = vec4(1.0, -2.0, 1.0, 0.0), twist = vec4(1.0, -1.0, -1.0, 1.0);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= m; ++i) {
+      const int at = first + i + (m + 1) * j, row = m + 1;
+      if (i + 2 <= m)
+        out_.second.x = max(out_.second.x, sizeOfSum(ivec4(at, at + 1, at + 2, at), bend, centre, reach));
+      if (i + 1 <= m && j + 1 <= n)
+        out_.second.y = max(out_.second.y, sizeOfSum(ivec4(at, at + 1, at + row, at + row + 1), twist, centre, reach));
+      if (j + 2 <= n)
+        out_.second.z = max(out_.second.z, sizeOfSum(ivec4(at, at + row, at + 2 * row, at), bend, centre, reach));
+    }
+  out_.second *= vec3(float(m * (m - 1)), float(m * n), float(n * (n - 1)));
+  return out_;
+}
+#endif
+
 vec3 secondBounds(int first, uint shape, PatchBounds box, float eps) {
   if (isRectangle(shape)) return rectangleBounds(first, shape, 0.5 * (box.low + box.high), eps);
   // So large that any tolerance takes all segments.
@@ -169,6 +221,65 @@ ivec4 triangleUnits(vec3 second, float eps, int degree) {
   const vec3 segments = sqrt(second / (4.0 * eps));
   return ivec4(units(segments.x), units(segments.y), units(segments.z), 0);
 }
+
+#ifdef SIZE
+// Sizes on the screen, as sizeOf() of factors.h. 0: chord, 1: Rockwood, 2: Kumar.
+vec2 onScreen(int at) {
+  const vec3 p = (anchorToCamera * vec4(projected(patchPoints[at]), 1.0)).xyz;
+  return p.xy * (pxAtDistance / max(-p.z, nearest));
+}
+
+// Of a part of the net: successive points `step_` apart.
+void stretch(inout vec3 most, int at, int step_) {
+  const vec2 d = onScreen(at + step_) - onScreen(at);
+  most = max(most, vec3(length(d), abs(d)));
+}
+
+float sizeOf(vec3 most, int degree) { return float(degree) * (SIZE == 1 ? most.x : length(most.yz)); }
+
+ivec4 unitsOfSizes(vec4 sizes) {
+  const vec4 segments = sizes / segmentPx;
+  return ivec4(units(segments.x), units(segments.y), units(segments.z), units(segments.w));
+}
+
+// Of the four sides, or of all curves of the net in either direction.
+vec4 rectangleSizes(int first, int m, int n) {
+#if SIZE == 0
+  const vec2 a = onScreen(first), b = onScreen(first + m), c = onScreen(first + (m + 1) * (n + 1) - 1),
+             d = onScreen(first + (m + 1) * n);
+  return vec4(distance(a, b), distance(b, c), distance(c, d), distance(d, a));
+#else
+  vec3 u = vec3(0.0), v = vec3(0.0);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= m; ++i) {
+      const int at = first + i + (m + 1) * j;
+      if (i < m) stretch(u, at, 1);
+      if (j < n) stretch(v, at, m + 1);
+    }
+  return vec2(sizeOf(u, m), sizeOf(v, n)).xyxy;
+#endif
+}
+
+// Of the three sides, or of all lines of the net along each of them.
+vec4 triangleSizes(int first, int n) {
+#if SIZE == 0
+  const vec2 a = onScreen(first), b = onScreen(first + trianglePlace(n, 0, 0)), c = onScreen(first + trianglePlace(n, 0, n));
+  return vec4(distance(a, b), distance(b, c), distance(c, a), 0.0);
+#else
+  vec3 side0 = vec3(0.0), side1 = vec3(0.0), side2 = vec3(0.0);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; i + k < n; ++k) {
+      // The corners of one upright triangle of the net.
+      const int u = first + trianglePlace(n, i + 1, k), v = first + trianglePlace(n, i, k),
+                w = first + trianglePlace(n, i, k + 1);
+      stretch(side0, u, v - u);
+      stretch(side1, v, w - v);
+      stretch(side2, w, u - w);
+    }
+  return vec4(sizeOf(side0, n), sizeOf(side1, n), sizeOf(side2, n), 0.0);
+#endif
+}
+#endif
 
 // What the view shows of a patch.
 struct Seen {
@@ -208,6 +319,14 @@ uvec2 factorsOf(uint number, uint shape, int first) {
 #endif
   if (cull != 0 && inHull && (seen.left || seen.right || seen.below || seen.above || seen.behind)) return uvec2(0u);
   if (uniformSegments > 0) return packedUnits(ivec4(uniformSegments * kSegmentUnit));
+#ifdef SIZE
+  if (box.finite == 0u) {
+    capped = true;
+    return packedUnits(ivec4(mostSegments * kSegmentUnit));
+  }
+  if (isRectangle(shape)) return packedUnits(unitsOfSizes(rectangleSizes(first, degreeU(shape), degreeV(shape))));
+  return packedUnits(unitsOfSizes(triangleSizes(first, degreeU(shape))) * ivec4(1, 1, 1, 0));
+#else
   float eps = tolerance * max(commonDepth > 0.0 ? commonDepth : seen.least, nearest);
   if (strict != 0 && commonDepth <= 0.0) eps /= sqrt(1.0 + min(seen.offAxis, dot(rayScale, rayScale)));
 #ifdef SCREEN
@@ -228,6 +347,7 @@ uvec2 factorsOf(uint number, uint shape, int first) {
     return packedUnits(ivec4(units(segments.x), units(segments.y), units(segments.x), units(segments.y)));
   }
   return packedUnits(triangleUnits(second, eps, degreeU(shape)));
+#endif
 }
 #endif
 
@@ -237,7 +357,9 @@ void main() {
   const TessellatedPatch patch_ = patches[number];
   const uint shape = shapeOf(patch_);
   const int first = int(patch_.firstPoint);
-#ifdef MAKE_BOUNDS
+#if defined(MAKE_BOUNDS) && defined(MOVING)
+  bounds[number] = movingBounds(first, shape);
+#elif defined(MAKE_BOUNDS)
   PatchBounds made = boxOf(first, pointCount(shape));
   if (made.finite != 0u) made.second = secondBounds(first, shape, made, 0.0);
   bounds[number] = made;

@@ -41,6 +41,17 @@ std::vector<glm::vec4> pointsOf(const surfaces::PatchSet& set, glm::dvec3 anchor
   return out;
 }
 
+std::vector<PointMotion> motionsOf(const surfaces::PatchSet& set, glm::dvec3 anchor) {
+  const std::vector<glm::vec4> rest = pointsOf(set, anchor);
+  std::vector<PointMotion> out;
+  for (size_t i = 0; i < rest.size(); ++i) {
+    const double w = set.points[i].w;
+    out.push_back({rest[i], glm::vec4(glm::dvec4(w * set.motion.sine[i], 0.0)),
+                   glm::vec4(glm::dvec4(w * set.motion.cosine[i], 0.0))});
+  }
+  return out;
+}
+
 std::vector<glm::vec4> normalsOf(const surfaces::PatchSet& set) {
   std::vector<glm::vec4> out;
   out.reserve(set.normals.size());
@@ -62,12 +73,31 @@ gl::ShaderDefines definesOf(const surfaces::PatchSet& set) {
 
 }  // namespace
 
-PatchBuffers::PatchBuffers(const scene::Scene& scene, glm::dvec3 anchor)
+void requireDrawn(const scene::Scene& scene, const DrawnSurfaces& drawn) {
+  const surfaces::PatchSet& set = scene.surfaces;
+  if (!drawn.trimmed && !set.trims.empty())
+    throw Error("the scene has trimmed surfaces, which this technique would draw whole", "scene",
+                "use tessellation/compute or ray_casting/exact");
+  if (!set.motion.moves()) return;
+  if (!drawn.moving)
+    throw Error("the scene has moving surfaces, which this technique would draw at rest", "scene",
+                "use tessellation/compute, tessellation/hardware or ray_casting/exact");
+  for (const surfaces::Patch& patch : set.patches)
+    if (patch.normalDegree > 0 || patch.domain == surfaces::Domain::Triangle)
+      throw Error("the scene has moving patches that are triangles or have normals of their own", "scene",
+                  "rectangles without a normal field can move");
+}
+
+PatchBuffers::PatchBuffers(const scene::Scene& scene, glm::dvec3 anchor, const DrawnSurfaces& drawn)
     : count_(static_cast<uint32_t>(scene.surfaces.patches.size())),
+      pointCount_(static_cast<uint32_t>(scene.surfaces.points.size())),
       patches_(recordsOf(scene)),
       points_(pointsOf(scene.surfaces, anchor)),
       normals_(normalsOf(scene.surfaces)),
-      defines_(definesOf(scene.surfaces)) {}
+      defines_(definesOf(scene.surfaces)) {
+  requireDrawn(scene, drawn);
+  if (scene.surfaces.motion.moves()) motions_.emplace(motionsOf(scene.surfaces, anchor));
+}
 
 void PatchBuffers::bindStorage() const {
   patches_.bindStorage(kPatchesBuffer);

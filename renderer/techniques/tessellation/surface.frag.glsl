@@ -8,7 +8,17 @@ flat in uint material;
 layout(location = 0) out uint id;
 layout(location = 1) out vec4 normalAndDistance;
 
+#ifdef TRIMMED
+in vec2 trimPlace;
+flat in int trimRegion;
+layout(binding = kTrimsUnit) uniform sampler2DArray trims;
+uniform float leastLeft;  // what is left holds more
+#endif
+
 void main() {
+#ifdef TRIMMED
+  if (trimRegion >= 0 && !(textureLod(trims, vec3(trimPlace, float(trimRegion)), 0.0).x > leastLeft)) discard;
+#endif
   id = kSurfaceOfPatch | material;
   // The triangle decides which side is seen.
   normalAndDistance = vec4(gl_FrontFacing ? normal : -normal, distance_);

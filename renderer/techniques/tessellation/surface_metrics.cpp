@@ -33,11 +33,16 @@ void requireTessellation(const ComparisonInput& input) {
                 "use it with techniques of tessellation/");
 }
 
+/// As they were when they were drawn.
+const surfaces::PatchSet& patchesOf(const ComparisonInput& input) {
+  return input.tessellation->moved ? *input.tessellation->moved : *input.patches;
+}
+
 MetricResult measureDeviation(const ComparisonInput& input, const SurfaceDeviationSettings& settings) {
   requireTessellation(input);
   const surfaces::Deviation found =
-      surfaces::deviationOf(*input.patches, *input.tessellation, {settings.steps, settings.samples});
-  surfaces::PatchSet const& set = *input.patches;
+      surfaces::deviationOf(patchesOf(input), *input.tessellation, {settings.steps, settings.samples});
+  surfaces::PatchSet const& set = patchesOf(input);
   glm::dvec3 low(1e300), high(-1e300);
   for (const glm::dvec4& p : set.points)
     if (p.w != 0.0) low = glm::min(low, glm::dvec3(p) / p.w), high = glm::max(high, glm::dvec3(p) / p.w);
@@ -74,11 +79,11 @@ std::vector<Quantity> deviationFigures() {
 
 MetricResult measureNormals(const ComparisonInput& input, const perception::NoMetricSettings&) {
   requireTessellation(input);
-  const surfaces::Spread found = surfaces::normalErrors(*input.patches, *input.tessellation);
+  const surfaces::Spread found = surfaces::normalErrors(patchesOf(input), *input.tessellation);
   MetricResult out;
   out.value = found.most;
   const surfaces::Spread bent =
-      surfaces::normalErrors(*input.patches, *input.tessellation, surfaces::NormalsOf::Geometry);
+      surfaces::normalErrors(patchesOf(input), *input.tessellation, surfaces::NormalsOf::Geometry);
   out.figures = {found.mean, found.p99, found.most, bent.mean, bent.p99, bent.most};
   out.evaluatedPixels = static_cast<int64_t>(input.tessellation->positions.size());
   return out;
@@ -86,7 +91,7 @@ MetricResult measureNormals(const ComparisonInput& input, const perception::NoMe
 
 MetricResult measureCracks(const ComparisonInput& input, const perception::NoMetricSettings&) {
   requireTessellation(input);
-  const surfaces::Cracks found = surfaces::cracksOf(*input.patches, *input.tessellation);
+  const surfaces::Cracks found = surfaces::cracksOf(patchesOf(input), *input.tessellation);
   MetricResult out;
   out.value =
       static_cast<double>(found.unequalVertices + found.loneVertices + found.openEdges + found.foldOvers);

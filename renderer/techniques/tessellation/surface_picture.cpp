@@ -16,6 +16,7 @@ namespace {
 std::vector<scene::TriangleRange> meshRanges(const scene::Scene& scene) {
   std::set<uint32_t> curved;
   for (const surfaces::Patch& patch : scene.surfaces.patches) curved.insert(patch.part);
+  for (const surfaces::SubdivisionSurface& surface : scene.subdivisions) curved.insert(surface.part);
   std::vector<scene::TriangleRange> out;
   for (uint32_t part = 0; part < scene.parts.size(); ++part)
     if (!curved.contains(part))

@@ -26,6 +26,14 @@ SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices, const gl::Buf
 
 SurfaceVertexArray::~SurfaceVertexArray() { glDeleteVertexArrays(1, &id_); }
 
+void SurfaceVertexArray::setTrimPlaces(const gl::Buffer& places) const {
+  constexpr GLuint kAttribute = 3, kBinding = 1;
+  glVertexArrayAttribFormat(id_, kAttribute, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(id_, kAttribute, kBinding);
+  glEnableVertexArrayAttrib(id_, kAttribute);
+  glVertexArrayVertexBuffer(id_, kBinding, places.id(), 0, 16);
+}
+
 void SurfaceVertexArray::bind() const { glBindVertexArray(id_); }
 
 }  // namespace limen::techniques

@@ -13,6 +13,8 @@ class SurfaceVertexArray {
   ~SurfaceVertexArray();
   SurfaceVertexArray(const SurfaceVertexArray&) = delete;
   SurfaceVertexArray& operator=(const SurfaceVertexArray&) = delete;
+  /// Attribute 3, four floats a vertex.
+  void setTrimPlaces(const gl::Buffer& places) const;
   void bind() const;
 
  private:

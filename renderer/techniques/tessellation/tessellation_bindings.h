@@ -6,7 +6,10 @@
 
 #ifdef __cplusplus
 namespace limen::techniques {
+using glm::ivec2;
 using glm::ivec4;
+using glm::vec2;
+using glm::vec4;
 #endif
 
 const int kTessellationGroup = 64;
@@ -50,6 +53,22 @@ struct PatchBounds {  // std430
 static_assert(sizeof(PatchBounds) == 48 && offsetof(PatchBounds, finite) == 28);
 #endif
 
+// Of a control point: its place and how it moves (surfaces::PatchMotion), homogeneous.
+struct PointMotion {  // std430
+  vec4 rest, sine, cosine;
+};
+
+// surfaces::PatchTrim.
+struct PatchTrimRecord {  // std430
+  vec2 low, high;
+  int region;  // -1: none
+  int unused0;
+  ivec2 unused1;
+};
+#ifdef __cplusplus
+static_assert(sizeof(PatchTrimRecord) == 32 && offsetof(PatchTrimRecord, region) == 16);
+#endif
+
 struct TessellatedVertex {  // std430
   vec3 position;            // relative to the anchor
   uint material;
@@ -91,6 +110,7 @@ static_assert(sizeof(PatternCommand) == 20);
 const uint kPatchesBuffer = 0u;
 const uint kPatchPointsBuffer = 1u;
 const uint kPatchNormalsBuffer = 2u;
+const uint kPointMotionsBuffer = 2u;
 const uint kOwnFactorsBuffer = 3u;  // of each patch four times 16 bits, in 1 / kSegmentUnit; 0: culled
 const uint kFactorsBuffer = 4u;     // PatchFactors
 const uint kPatchBoundsBuffer = 5u;
@@ -100,6 +120,8 @@ const uint kTotalsBuffer = 6u;
 const uint kVerticesBuffer = 7u;
 const uint kTriangleCountBuffer = 7u;
 const uint kIndicesBuffer = 3u;
+const uint kPatchTrimsBuffer = 3u;
+const uint kTrimPlacesBuffer = 7u;
 
 // Refinement patterns.
 const uint kPatternCountsBuffer = 5u;
@@ -112,6 +134,7 @@ const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 // Picture.
 const uint kSurfaceIdsUnit = 0u;
 const uint kSurfaceNormalsUnit = 1u;
+const uint kTrimsUnit = 0u;
 const uint kResolveIdsImage = 0u;
 const uint kResolveNormalsImage = 1u;
 const uint kResolveVerticesBuffer = 0u;

@@ -25,7 +25,7 @@ bool looksAt(size_t index, const std::string& name) {
 
 /// One that has what the technique needs.
 std::string sceneFor(const techniques::TechniqueInfo& info) {
-  for (const char* name : {"sphere_grid", "lod/terrain", "lod/object", "palm", "street_light"}) {
+  for (const char* name : {"sphere_grid", "lod/terrain", "lod/object", "palm", "street_light", "stream"}) {
     if (!scene::SceneRegistry::instance().find(name)) continue;
     const std::set<std::string> traits = scene::buildScene(name, {}).traits();
     if (std::all_of(info.needs.begin(), info.needs.end(),

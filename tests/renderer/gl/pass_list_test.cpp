@@ -59,6 +59,22 @@ TEST_F(PassListTest, FramesPastTheCapacityAreNotRecorded) {
   EXPECT_EQ(passes.finishRecording().size(), 3U);
 }
 
+/// Frames or passes alone: what is not asked for leaves no time, whatever else is recorded.
+TEST_F(PassListTest, FramesAndPassesAreRecordedApart) {
+  PassList passes;
+  frame(passes, 0);
+  const auto names = [&](Recorded what) {
+    passes.startRecording(Clock::Wall, 2, what);
+    for (int i = 0; i < 2; ++i) frame(passes, 0);
+    std::vector<std::string> out;
+    for (const PassTime& time : passes.finishRecording())
+      out.push_back(std::to_string(time.frame) + time.pass);
+    return out;
+  };
+  EXPECT_EQ(names(Recorded::Frames), (std::vector<std::string>{"0frame", "1frame"}));
+  EXPECT_EQ(names(Recorded::Passes), (std::vector<std::string>{"0slow", "0quick", "1slow", "1quick"}));
+}
+
 TEST_F(PassListTest, NothingIsRecordedUnlessAsked) {
   PassList passes;
   frame(passes, 0);

@@ -102,14 +102,19 @@ inline Given needed(const std::string& scene) {
   if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
   if (scene == "curved/pn_mesh") return {{"file", creasedMeshFile()}};
   if (scene == "boulders") return {{"tessellation", int64_t{4}}};
-  if (scene == "curved/spheres" || scene == "curved/star_field") return {{"tessellation", int64_t{2}}};
+  if (scene == "curved/spheres") return {{"tessellation", int64_t{2}}};
+  if (scene == "curved/trimmed") return {{"tessellation", int64_t{3}}};
+  if (scene == "curved/star_field") return {{"tessellation", int64_t{2}}, {"layers", int64_t{1}}};
   if (scene == "curved/herd") return {{"animals", int64_t{2}}};
+  if (scene == "mirrors/mesh") return {{"file", smallMeshFile()}};
+  if (scene == "mirrors/herd") return {{"figures", int64_t{4}}};
+  if (scene == "mirrors/bunny") return {{"detail", 0.01}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 
 inline bool installed(const std::string& scene) {
   return (scene != "bunny" && scene != "horse" && scene != "cat" && scene != "lod/object" &&
-          scene != "curved/pn_model") ||
+          scene != "curved/pn_model" && scene != "mirrors/bunny") ||
          std::filesystem::exists("/usr/share/glmark2/models");
 }
 

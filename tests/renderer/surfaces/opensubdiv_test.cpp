@@ -7,13 +7,16 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/catmull_clark.h"
 #include "renderer/surfaces/loop_point.h"
 #include "renderer/surfaces/loop_subdivision.h"
+#include "renderer/surfaces/table_layout.h"
 
 namespace limen::surfaces {
 namespace {
@@ -193,6 +196,54 @@ TEST(OpenSubdiv, CreasesAndBoundariesAreTheSame) {
     expectCatmullClark(sheet(false, sharpness));
     expectLoop(sheet(true, sharpness));
   }
+}
+
+/// Tables of basis functions, at all places of level 4 of every patch, in double precision. The surface is
+/// that of the control mesh refined once, by OpenSubdiv's rules for the rest of the way.
+void expectTables(const PolygonMesh& mesh, SubdivisionScheme scheme) {
+  const bool quads = scheme == SubdivisionScheme::CatmullClark;
+  const PolygonMesh once = quads ? catmullClark(mesh) : loop(mesh);
+  const OpenSubdivSurface theirs(once, quads ? osd::Sdc::SCHEME_CATMARK : osd::Sdc::SCHEME_LOOP);
+  const TableLayout layout = tableLayout(mesh, scheme, 4);
+  std::map<std::vector<uint32_t>, std::pair<uint32_t, size_t>> faces;
+  for (uint32_t f = 0; f < once.faces.size(); ++f)
+    for (size_t r = 0; r < once.faces[f].size(); ++r) {
+      std::vector<uint32_t> turned;
+      for (size_t c = 0; c < once.faces[f].size(); ++c)
+        turned.push_back(once.faces[f][(r + c) % once.faces[f].size()]);
+      faces[turned] = {f, r};
+    }
+  double most = 0.0;
+  for (const TablePatch& patch : layout.patches) {
+    std::vector<uint32_t> corners;
+    for (size_t c = 0; c < layout.corners(); ++c)
+      corners.push_back(layout.controls[patch.controls[c]].vertex);
+    const auto [face, rotation] = faces.at(corners);
+    const BasisTable& table = layout.tables[patch.table];
+    for (size_t row = 0; row < layout.rows(); ++row) {
+      glm::dvec3 own(0.0);
+      for (size_t s = 0; s < table.slots; ++s)
+        own += table.weight(s, row) * once.points[layout.controls[patch.controls[s]].vertex];
+      double x = layout.places[row][0] / 16.0, y = layout.places[row][1] / 16.0;
+      if (quads) {
+        for (size_t turn = 0; turn < rotation; ++turn) x = std::exchange(y, x), x = 1.0 - x;
+      } else {
+        std::array<double, 3> weights{};
+        weights[rotation] = 1.0 - x - y, weights[(rotation + 1) % 3] = x, weights[(rotation + 2) % 3] = y;
+        x = weights[1], y = weights[2];
+      }
+      most = std::max(most, glm::length(theirs.at(face, x, y).position - own));
+    }
+  }
+  EXPECT_LT(most, 1e-5 * diagonalOf(mesh));
+}
+
+TEST(OpenSubdiv, TablesHaveTheSameSurface) {
+  for (const int valence : {3, 4, 5, 6, 7, 12, 18}) expectTables(spindle(valence), SubdivisionScheme::Loop);
+  expectTables(sheet(true, 0.0), SubdivisionScheme::Loop);
+  expectTables(sheet(true, kInfinitelySharp), SubdivisionScheme::Loop);
+  expectTables(scene::doubleTorusCage(), SubdivisionScheme::CatmullClark);
+  expectTables(sheet(false, kInfinitelySharp), SubdivisionScheme::CatmullClark);
 }
 
 }  // namespace

@@ -3,30 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 namespace limen::surfaces {
 namespace {
 
-/// A circle of four rational quarters.
-std::vector<glm::dvec2> circle(glm::dvec2 centre, double radius) {
-  const double w = std::sqrt(0.5);
-  std::vector<std::vector<glm::dvec3>> quarters;
-  for (int q = 0; q < 4; ++q) {
-    const auto at = [&](double turn, double reach, double weight) {
-      const glm::dvec2 p = centre + radius * reach * glm::dvec2(std::cos(turn), std::sin(turn));
-      return glm::dvec3(p * weight, weight);
-    };
-    const double start = 0.5 * M_PI * q;
-    quarters.push_back(
-        {at(start, 1.0, 1.0), at(start + 0.25 * M_PI, std::sqrt(2.0), w), at(start + 0.5 * M_PI, 1.0, 1.0)});
-  }
-  return trimLoop(quarters, 48);
-}
-
 /// A ring with a disc in its hole.
-TrimRegion target() { return {{circle({0.5, 0.5}, 0.4), circle({0.5, 0.5}, 0.25), circle({0.5, 0.5}, 0.1)}}; }
+TrimRegion target() {
+  return {
+      {trimCircle({0.5, 0.5}, 0.4, 48), trimCircle({0.5, 0.5}, 0.25, 48), trimCircle({0.5, 0.5}, 0.1, 48)}};
+}
 
 TEST(TrimRegion, HoldsWhatIsInsideAnOddNumberOfLoops) {
   const TrimRegion region = target();
@@ -35,6 +22,19 @@ TEST(TrimRegion, HoldsWhatIsInsideAnOddNumberOfLoops) {
   EXPECT_TRUE(region.contains({0.82, 0.5}));
   EXPECT_FALSE(region.contains({0.95, 0.5}));
   EXPECT_NEAR(region.area(), M_PI * (0.16 - 0.0625 + 0.01), 1e-3);
+}
+
+/// Texels hold what the radii say, up to four texels; polygons of 192 sides lie within R (1 - cos(pi / 192))
+/// < 6e-5 of the circles.
+TEST(TrimMask, HoldsTheDistanceToTheCurves) {
+  constexpr int kResolution = 40;
+  const TrimMask mask(target(), kResolution, TrimTexture::Distance);
+  for (int y = 0; y < kResolution; ++y)
+    for (int x = 0; x < kResolution; ++x) {
+      const double r = glm::length(glm::dvec2(x + 0.5, y + 0.5) / double(kResolution) - 0.5);
+      const double signedTo = r < 0.175 ? 0.1 - r : r < 0.325 ? r - 0.25 : 0.4 - r, reach = 4.0 / kResolution;
+      EXPECT_NEAR(mask.texels()[size_t(x + kResolution * y)], std::clamp(signedTo, -reach, reach), 7e-5);
+    }
 }
 
 /// SC-18: a mask of texels is wrong in a band of at most half a texel's diagonal on both sides of the curves.

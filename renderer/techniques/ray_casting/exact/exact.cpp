@@ -12,6 +12,7 @@
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
+#include "renderer/techniques/tessellation/trim_settings.h"
 
 namespace limen::techniques {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 struct ExactRaysSettings {
   surfaces::RootFinder roots = surfaces::RootFinder::Clipping;
   double tolerancePx = 1e-4;
+  std::variant<TrimByCurves, TrimByTexture> trims;
   bool check = false;
   frame::ShadedSetting shading;
   static const SettingsTable<ExactRaysSettings>& table() {
@@ -30,6 +32,7 @@ struct ExactRaysSettings {
          {1e-9, 1},
          "px",
          "Distance from the ray that counts as a hit, where the surface is nearest"},
+        {&S::trims, "trims", "Where trimmed surfaces are looked up", "Schwarz 2009, section 6.1.4"},
         {&S::check, "check", "Compare all pixels with interval arithmetic when counting"},
         frame::shadingBinding(&S::shading)};
     return kTable;
@@ -49,6 +52,8 @@ class ExactRays : public Technique {
       if (!(p.w > 0.0))
         throw Error("the scene has a control point whose weight is not positive", "scene",
                     "exact ray casting relies on the hulls of control points");
+    set_ = surfaces::movedTo(frame.scene().surfaces, frame.timeS());
+    makeTracer();
     const std::string folder = "renderer/techniques/ray_casting/exact/";
     program_ = &frame.context().programs().get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
     picture_.emplace(frame, settings_.shading, "ray_casting");
@@ -59,7 +64,11 @@ class ExactRays : public Technique {
 
   void render(frame::Frame& frame) override {
     const scene::Scene& scene = frame.scene();
-    exact_ = exactView(scene.surfaces, settings_.roots, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
+    if (scene.surfaces.motion.moves()) {
+      set_ = surfaces::movedTo(scene.surfaces, frame.timeS());
+      makeTracer();
+    }
+    exact_ = exactView(set_, *tracer_, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
     std::vector<uint32_t> ids;
     Image normals(frame.sizePx().x, frame.sizePx().y, 4);
     for (size_t i = 0; i < exact_.pixels.size(); ++i) {
@@ -113,7 +122,15 @@ class ExactRays : public Technique {
   }
 
  private:
+  void makeTracer() {
+    const auto* texture = std::get_if<TrimByTexture>(&settings_.trims);
+    tracer_.emplace(set_, settings_.roots,
+                    texture ? surfaces::TrimTest(set_, texture->mask()) : surfaces::TrimTest(set_));
+  }
+
   Settings settings_;
+  surfaces::PatchSet set_;  // at the frame's time
+  std::optional<surfaces::PatchTracer> tracer_;
   std::optional<SurfacePicture> picture_;
   std::optional<gl::Texture> ids_, normals_;
   const gl::Program* program_ = nullptr;
@@ -123,7 +140,7 @@ class ExactRays : public Technique {
 
 const RegisteredTechnique<ExactRays> kExactRaysRegistered{
     {.name = "ray_casting/exact",
-     .version = 2,
+     .version = 3,
      .summary = "Curved surfaces by casting rays on the CPU in double precision, by Bézier clipping, hulls "
                 "or intervals",
      .source = "Nishita, Sederberg and Kakimoto 1990; Schwarz 2009, section 6.5.1 (SC-28, SC-33)",

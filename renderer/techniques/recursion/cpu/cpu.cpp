@@ -7,6 +7,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/surfaces/recursion.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/patch_buffers.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_vertex_array.h"
 #include "renderer/techniques/tessellation/surface_view.h"
@@ -52,6 +53,7 @@ class CpuRecursion : public Technique {
   explicit CpuRecursion(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
+    requireDrawn(frame.scene());
     picture_.emplace(frame, settings_.shading, "recursion");
     drawProgram_ =
         &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",

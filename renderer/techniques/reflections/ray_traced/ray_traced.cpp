@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "renderer/frame/g_buffer.h"
+#include "renderer/frame/mirror_path.h"
 #include "renderer/frame/mirror_rays.h"
+#include "renderer/frame/mirror_trace.h"
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
@@ -19,25 +21,11 @@ namespace {
 constexpr const char* kTracePass = "reflections/trace";
 
 struct RayTracedSettings {
-  int bounces = 1;
-  double leastShare = 0.0;
+  frame::MirrorPathSettings path;
   frame::ShadedSetting shading;
   static const SettingsTable<RayTracedSettings>& table() {
     using S = RayTracedSettings;
-    static const SettingsTable<S> kTable = {
-        {&S::bounces,
-         "bounces",
-         {1, 16},
-         "",
-         "Mirrors that light meets on its way to the eye at most",
-         "Roger 2008, section 3.5"},
-        {&S::leastShare,
-         "least_share",
-         {0.0, 1.0},
-         "",
-         "Largest share of its light at which a ray is not followed further",
-         "Roger 2008, section 1.2.2"},
-        shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {included(&S::path), shadingBinding(&S::shading)};
     return kTable;
   }
 };
@@ -51,7 +39,7 @@ class RayTracedReflections : public Technique {
   void prepare(frame::Frame& frame) override {
     program_ =
         &frame.context().programs().compute("renderer/techniques/reflections/ray_traced/ray_traced.comp.glsl",
-                                            shadingDefines(settings_.shading, frame));
+                                            frame::mirrorTraceDefines(settings_.shading, frame));
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
     frame.passes().setBytesHeld(kTracePass,
                                 reflected_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
@@ -63,10 +51,10 @@ class RayTracedReflections : public Technique {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     {
       const auto scope = frame.passes().open(kTracePass);
-      frame::configureShading(*program_, frame, settings_.shading);
-      frame.gpuScene().rays(frame.context()).bind(*program_);
-      program_->set("bounces", settings_.bounces);
-      program_->set("leastShare", static_cast<float>(settings_.leastShare));
+      frame::configureMirrorTrace(*program_, frame, settings_.shading);
+      program_->set("bounces", settings_.path.bounces);
+      program_->set("shadows", settings_.path.shadows);
+      program_->set("leastShare", static_cast<float>(settings_.path.leastShare));
       rays.origins().bindTexture(kReflectionOriginsUnit);
       rays.directions().bindTexture(kReflectionDirectionsUnit);
       ids.bindTexture(kReflectionIdsUnit);
@@ -79,6 +67,11 @@ class RayTracedReflections : public Technique {
 
   const gl::Texture& product() const override { return picture_.texture(); }
 
+  /// A scene that moves needs its tree anew each frame.
+  std::vector<Counter> count(frame::Frame& frame) override {
+    return {{"tree_build_ms", 1e3 * frame.gpuScene().rays(frame.context()).buildS()}};
+  }
+
  private:
   RayTracedSettings settings_;
   ReflectionPicture picture_;
@@ -88,11 +81,13 @@ class RayTracedReflections : public Technique {
 
 const RegisteredTechnique<RayTracedReflections> kRegistered{
     {.name = "reflections/ray_traced",
-     .version = 1,
+     .version = 2,
      .summary = "Mirrors by rays through a tree of the scene's triangles",
      .source = "Roger 2008, sections 1.2.2 and 3.1 (R-59)",
      .product = ProductKind::Colour,
-     .needs = {"mirrors"}}};
+     .needs = {"mirrors"},
+     .counters = {{"tree_build_ms", "Time to build the tree, once, on the CPU", "ms",
+                   Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -56,7 +56,8 @@ std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
     glFinish();
   }
   awake_ = true;
-  frame.passes().startRecording(software() ? gl::Clock::Wall : gl::Clock::Gpu, timing_.frames);
+  frame.passes().startRecording(software() ? gl::Clock::Wall : gl::Clock::Gpu, timing_.frames,
+                                gl::Recorded::Frames);
   const auto start = steady_clock::now();
   for (int i = 0; i < timing_.frames && (i == 0 || secondsSince(start) < kMostSeconds); ++i) {
     renderFrame(frame, *technique);

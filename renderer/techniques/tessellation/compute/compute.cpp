@@ -20,8 +20,9 @@
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/tessellation/compute/compute_settings.h"
+#include "renderer/techniques/tessellation/compute/trim_pass.h"
 #include "renderer/techniques/tessellation/depth_passes.h"
-#include "renderer/techniques/tessellation/factor_pass.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
@@ -30,139 +31,12 @@
 namespace limen::techniques {
 namespace {
 
-/// Who makes vertices and indices.
-struct PatchParallel {
-  static constexpr const char *kKind = "patch_parallel", *kSummary = "some invocations for each patch";
-  int lanes = 0, verticesEach = 16;
-  static const SettingsTable<PatchParallel>& table() {
-    static const SettingsTable<PatchParallel> kTable = {
-        {&PatchParallel::lanes, "lanes", oneOf({0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}), "invocations",
-         "Invocations that share a patch. 0: the GPU decides, in each frame and for all patches, from the "
-         "mean "
-         "number of their vertices"},
-        {&PatchParallel::verticesEach,
-         "vertices_each",
-         {1, 64},
-         "vertices",
-         "Vertices of an invocation that the GPU's choice aims at; fewer where few patches would not occupy "
-         "a "
-         "GPU"}};
-    return kTable;
-  }
-};
-struct VertexParallel {
-  static constexpr const char *kKind = "vertex_parallel",
-                              *kSummary = "an invocation for each vertex, which searches for its patch";
-};
-struct FourThreads {
-  static constexpr const char *kKind = "four_threads",
-                              *kSummary = "four invocations a patch, one for each component (the thesis's)";
-};
-
 /// That occupy a GPU, of which an NVIDIA H200 runs 132 x 2048 at once, or a software renderer.
 uint32_t manyInvocations(const gl::Context& context) {
   return context.device().software ? 1U << 8 : 1U << 18;
 }
 
-struct EvaluateDirectly {
-  static constexpr const char *kKind = "direct", *kSummary = "each sample for itself";
-};
-/// SC-72.
-struct EvaluateByDifferences {
-  static constexpr const char *kKind = "forward_differences",
-                              *kSummary = "rows of samples by forward differences, of bicubic patches";
-  int restart = 64;
-  static const SettingsTable<EvaluateByDifferences>& table() {
-    static const SettingsTable<EvaluateByDifferences> kTable = {
-        {&EvaluateByDifferences::restart,
-         "restart",
-         {2, 64},
-         "samples",
-         "Samples after which a run starts anew; with patch_parallel, each run is an invocation's"}};
-    return kTable;
-  }
-};
-
-/// SC-76.
-struct EvaluateInVertexShader {
-  static constexpr const char
-      *kKind = "vertex_shader",
-      *kSummary = "by the vertex shader, in each pass, from a patch and a sample stored for each vertex";
-};
-
-/// Who makes the vertices of a side that two patches have in common (SC-74).
-enum class SharedSides { Evaluated, Copied };
-constexpr EnumNames<SharedSides, 2> enumNames(SharedSides) {
-  return {{{{SharedSides::Copied, "copied"}, {SharedSides::Evaluated, "evaluated"}}}};
-}
-
 constexpr int64_t kIndicesPerVertex = 6;
-constexpr int64_t kMostVertices = 1 << 26;  // 2 GiB
-
-struct ComputeTessellationSettings {
-  FactorSettings tessellation;
-  std::variant<PatchParallel, VertexParallel, FourThreads> form;
-  Spacing spacing = Spacing::Integer;
-  std::variant<EvaluateDirectly, EvaluateByDifferences, EvaluateInVertexShader> evaluation;
-  SharedSides sides = SharedSides::Evaluated;
-  compute::ScanForm scan = compute::ScanForm::Auto;
-  frame::Raster raster = frame::Raster::Auto;
-  int64_t capacity = 0;
-  int passes = 1;
-  frame::ShadedSetting shading;
-  static const SettingsTable<ComputeTessellationSettings>& table() {
-    using S = ComputeTessellationSettings;
-    static const SettingsTable<S> kTable = {
-        included(&S::tessellation),
-        {&S::form, "form", "How vertices and indices are shared out to invocations",
-         "Schwarz 2009, section 7.6.1"},
-        {&S::spacing, "spacing", "How a side is divided whose factor is no whole number",
-         "Schwarz 2009, section 7.3.3"},
-        {&S::evaluation, "evaluation", "How samples of a patch are evaluated", "Schwarz 2009, section 7.6.2"},
-        {&S::sides, "sides",
-         "Vertices on common sides: evaluated by both patches, in an order that gives the same bits, or "
-         "copied from one",
-         "Schwarz 2009, section 7.6.1"},
-        {&S::scan, "scan", "How offsets are summed"},
-        {&S::raster, "raster",
-         "How triangles become pixels: as strips by the driver, or one by one in compute"},
-        {&S::capacity,
-         "capacity",
-         {0, kMostVertices},
-         "vertices",
-         "Vertices that the buffers hold; indices: six times as many. 0: twice what the first view takes. "
-         "Patches that do not fit are left out and counted"},
-        {&S::passes,
-         "passes",
-         {1, 8},
-         "passes",
-         "Passes over the same triangles in a frame. All but the last make depths alone; with more than one, "
-         "or "
-         "evaluation in the vertex shader, the driver makes pixels",
-         "Schwarz 2009, section 7.6.1"},
-        frame::shadingBinding(&S::shading)};
-    return kTable;
-  }
-  bool byDifferences() const { return std::holds_alternative<EvaluateByDifferences>(evaluation); }
-  bool vertexParallel() const { return std::holds_alternative<VertexParallel>(form); }
-  bool fourThreads() const { return std::holds_alternative<FourThreads>(form); }
-  bool inVertexShader() const { return std::holds_alternative<EvaluateInVertexShader>(evaluation); }
-  bool needsDriver() const { return passes > 1 || inVertexShader(); }
-  void check() const {
-    if (needsDriver() && raster == frame::Raster::Compute)
-      throw Error("several passes, and vertex shaders, are for the driver's rasteriser", "raster",
-                  "use raster: hardware");
-    if (inVertexShader() && (fourThreads() || spacing > Spacing::Dyadic || sides == SharedSides::Copied))
-      throw Error("the vertex shader takes equal steps, and each vertex for itself", "evaluation",
-                  "use spacing: integer or dyadic, sides: evaluated, and another form than four_threads");
-    if (vertexParallel() && byDifferences())
-      throw Error("forward differences need invocations that go along rows", "evaluation",
-                  "use form: patch_parallel or four_threads");
-    if (spacing > Spacing::Dyadic && (fourThreads() || byDifferences()))
-      throw Error("this form of evaluation takes equal steps", "spacing",
-                  "use spacing: integer or dyadic, or another form and direct evaluation");
-  }
-};
 
 class ComputeTessellation : public Technique {
  public:
@@ -174,10 +48,13 @@ class ComputeTessellation : public Technique {
 
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/tessellation/compute/";
-    patches_.emplace(frame.scene(), frame.gpuScene().anchor());
+    const bool trimmed = !frame.scene().surfaces.trims.empty();
+    patches_.emplace(frame.scene(), frame.gpuScene().anchor(),
+                     DrawnSurfaces{.trimmed = true, .moving = true});
+    if (trimmed) requireDriver();
     requireRectangles(frame.scene());
     requireInvocations();
-    lists_ = !settings_.needsDriver() &&
+    lists_ = !settings_.needsDriver() && !trimmed &&
              frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     factors_.emplace(frame, *patches_, settings_.tessellation, lists_, settings_.spacing);
     scan_.emplace(frame.context(), patches_->count(), 2, settings_.scan);
@@ -202,6 +79,7 @@ class ComputeTessellation : public Technique {
     indicesProgram_ = &programs.compute(folder + "indices.comp.glsl", defines);
     gl::ShaderDefines drawDefines = inVertexShader ? patches_->defines() : gl::ShaderDefines();
     if (inVertexShader) drawDefines["INSTANCES"] = "1";
+    if (trimmed) drawDefines["TRIMMED"] = "1";
     drawProgram_ =
         &programs.get({inVertexShader ? "renderer/techniques/tessellation/patterns/pattern.vert.glsl"
                                       : folder + "surface.vert.glsl",
@@ -216,6 +94,11 @@ class ComputeTessellation : public Technique {
     // Written by four words.
     indices_.emplace((capacity_ * kIndicesPerVertex * 4 + 15) / 16 * 16, nullptr);
     makeVertexArray();
+    if (trimmed) {
+      trims_.emplace(frame, settings_.trims, defines, capacity_);
+      array_->setTrimPlaces(trims_->places());
+      frame.passes().setBytesHeld("tessellation/trims", trims_->bytes());
+    }
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/scan", offsets_->bytes() + totals_->bytes() + scan_->bytes());
     frame.passes().setBytesHeld("tessellation/vertices", vertices_->bytes());
@@ -246,6 +129,11 @@ class ComputeTessellation : public Technique {
     fill(frame, *verticesProgram_, "tessellation/vertices");
     if (copyProgram_) copySides(frame);
     fill(frame, *indicesProgram_, "tessellation/indices");
+    if (trims_) {
+      const int64_t most = 2 * int64_t{manyInvocations(frame.context())};
+      trims_->run(frame, settings_.tessellation.cornerFix ? 1 : 0,
+                  static_cast<int>(std::min(capacity_, most)));
+    }
     if (lists_) {
       picture_->renderListed(frame, {*vertices_, *indices_, *count_, capacity_ * kIndicesPerVertex / 3});
       return;
@@ -264,6 +152,9 @@ class ComputeTessellation : public Technique {
     auto out = std::make_shared<surfaces::TessellatedSurface>();
     out->anchor = frame.gpuScene().anchor();
     out->view = viewOf(frame);
+    if (frame.scene().surfaces.motion.moves())
+      out->moved =
+          std::make_shared<surfaces::PatchSet>(surfaces::movedTo(frame.scene().surfaces, frame.timeS()));
     for (const TessellatedVertex& vertex : readVertices(frame, totals)) {
       out->positions.push_back(vertex.position);
       out->normals.push_back(vertex.normal);
@@ -295,17 +186,20 @@ class ComputeTessellation : public Technique {
     double culled = 0.0, rungs[kRungs] = {};
     for (const PatchFactors& of : factors) culled += of.segments == 0;
     for (const TessellatedVertex& vertex : vertices) rungs[vertex.rung] += 1.0;
-    return {{"patches_culled", culled},
-            {"patches_capped", double(factors_->countCapped(frame))},
-            {"patches_left_out", double(totals.overflow)},
-            {"tessellated_vertices", double(totals.vertices)},
-            {"tessellated_triangles", double(readTriangles(totals).size())},
-            {"tessellated_indices", double(totals.indices)},
-            {"tessellated_mib",
-             (double(totals.vertices) * double(bytesPerVertex()) + 4.0 * double(totals.indices)) / 1048576.0},
-            {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
-            {"normals_from_corners", rungs[kRungCornerPlane]},
-            {"normals_none", rungs[kRungNone]}};
+    std::vector<Counter> out = {
+        {"patches_culled", culled},
+        {"patches_capped", double(factors_->countCapped(frame))},
+        {"patches_left_out", double(totals.overflow)},
+        {"tessellated_vertices", double(totals.vertices)},
+        {"tessellated_triangles", double(readTriangles(totals).size())},
+        {"tessellated_indices", double(totals.indices)},
+        {"tessellated_mib",
+         (double(totals.vertices) * double(bytesPerVertex()) + 4.0 * double(totals.indices)) / 1048576.0},
+        {"degenerate_normals", rungs[kRungInward] + rungs[kRungCornerPlane] + rungs[kRungNone]},
+        {"normals_from_corners", rungs[kRungCornerPlane]},
+        {"normals_none", rungs[kRungNone]}};
+    if (trims_) out.push_back({"trim_error", trims_->error()});
+    return out;
   }
 
   static std::vector<Quantity> quantities() {
@@ -321,7 +215,9 @@ class ComputeTessellation : public Technique {
         {"degenerate_normals", "Normals not given by the derivatives", "vertices", Direction::LowerIsBetter},
         {"normals_from_corners", "Normals taken from a patch's corners", "vertices",
          Direction::LowerIsBetter},
-        {"normals_none", "Vertices without a normal", "vertices", Direction::LowerIsBetter}};
+        {"normals_none", "Vertices without a normal", "vertices", Direction::LowerIsBetter},
+        {"trim_error", "Share of a surface's domain where its texture contradicts its curves, largest", "",
+         Direction::LowerIsBetter}};
   }
 
  private:
@@ -371,6 +267,10 @@ class ComputeTessellation : public Technique {
     program.set("anchorToClip", frame::anchorToClip(frame));
     if (array_) {
       array_->bind();
+      if (trims_ && &program == drawProgram_) {
+        trims_->bindTexture();
+        program.set("leastLeft", settings_.trims.content == surfaces::TrimTexture::Inside ? 0.5F : 0.0F);
+      }
     } else {
       patches_->bindStorage();
       glBindVertexArray(instanceArray_);
@@ -446,6 +346,14 @@ class ComputeTessellation : public Technique {
                   "use fewer, or 0");
   }
 
+  void requireDriver() const {
+    if (settings_.raster == frame::Raster::Compute)
+      throw Error("trimmed surfaces are for the driver's rasteriser", "raster", "use raster: hardware");
+    if (settings_.inVertexShader())
+      throw Error("trimmed surfaces take vertices that are stored", "evaluation",
+                  "use evaluation: direct or forward_differences");
+  }
+
   void requireRectangles(const scene::Scene& scene) const {
     if (!isFractional(settings_.spacing)) return;
     for (const surfaces::Patch& patch : scene.surfaces.patches)
@@ -463,6 +371,7 @@ class ComputeTessellation : public Technique {
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
   bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
   int64_t capacity_ = 0;  // vertices
+  std::optional<TrimPass> trims_;
   std::optional<DepthPasses> otherPasses_;
   std::optional<SurfaceVertexArray> array_;
   uint32_t instanceArray_ = 0;  // evaluation in the vertex shader

@@ -6,6 +6,11 @@ uniform mat4 anchorToClip;
 out vec3 normal;
 out float distance_;
 flat out uint material;
+#ifdef TRIMMED
+layout(location = 3) in vec3 trimOfVertex;
+out vec2 trimPlace;
+flat out int trimRegion;
+#endif
 
 void main() {
   precise const vec4 clip = anchorToClip * vec4(position, 1.0);
@@ -13,4 +18,8 @@ void main() {
   normal = normalOfVertex;
   distance_ = clip.w;
   material = materialOfVertex;
+#ifdef TRIMMED
+  trimPlace = trimOfVertex.xy;
+  trimRegion = int(trimOfVertex.z);
+#endif
 }

@@ -49,7 +49,7 @@ class HardwareTessellation : public Technique {
   }
 
   void prepare(frame::Frame& frame) override {
-    patches_.emplace(frame.scene(), frame.gpuScene().anchor());
+    patches_.emplace(frame.scene(), frame.gpuScene().anchor(), DrawnSurfaces{.moving = true});
     factors_.emplace(frame, *patches_, settings_.tessellation);
     picture_.emplace(frame, settings_.shading, "tessellation");
     std::vector<uint32_t> numbers;
@@ -109,9 +109,7 @@ class HardwareTessellation : public Technique {
 
   /// Of one patch; fractional spacing rounds up to the next even or odd number.
   int mostVertices() const {
-    const auto& factors = settings_.tessellation.factors;
-    const auto* deviation = std::get_if<ByDeviation>(&factors);
-    const int side = (deviation ? deviation->most : std::get<BySegments>(factors).segments) + 3;
+    const int side = settings_.tessellation.mostSegments() + 3;
     return side * side;
   }
 

@@ -68,9 +68,7 @@ class ConnectedPatterns : public Technique {
     patches_.emplace(frame.scene(), frame.gpuScene().anchor());
     factors_.emplace(frame, *patches_, settings_.tessellation, false, Spacing::Dyadic);
     picture_.emplace(frame, settings_.shading, "tessellation");
-    const auto* deviation = std::get_if<ByDeviation>(&settings_.tessellation.factors);
-    const int most =
-        deviation ? deviation->most : std::get<BySegments>(settings_.tessellation.factors).segments;
+    const int most = settings_.tessellation.mostSegments();
     patterns_.emplace(surfaces_->patches[0].domain,
                       static_cast<int>(std::bit_ceil(static_cast<unsigned>(most))));
     samples_.emplace(patterns_->samples());

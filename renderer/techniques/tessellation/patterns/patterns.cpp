@@ -93,10 +93,7 @@ struct PatternSettings {
   }
   bool adapted() const { return patterns == PatternKind::Adapted || patterns == PatternKind::AdaptedInteger; }
   bool dyadic() const { return patterns == PatternKind::Adapted || patterns == PatternKind::Dyadic; }
-  int most() const {
-    const auto* deviation = std::get_if<ByDeviation>(&tessellation.factors);
-    return deviation ? deviation->most : std::get<BySegments>(tessellation.factors).segments;
-  }
+  int most() const { return tessellation.mostSegments(); }
   void check() const {
     if (draw == PatternDraw::MultiDraw && coarseFirst)
       throw Error("a single draw has no part of its own for coarse patches", "coarse_first",
@@ -187,6 +184,7 @@ class RefinementPatterns : public Technique {
       used = static_cast<double>(patterns.size());
     }
     const double calls = batches_ ? 1.0 : static_cast<double>(commands_.size() + coarseCommands_.size());
+    const PatternSetSize set = setSize();
     const double soupTriangles = soup_ ? std::min(double(triangles), double(soupCapacity_)) : 0.0;
     return {{"patches_culled", culled},
             {"patches_capped", double(factors_->countCapped(frame))},
@@ -194,12 +192,46 @@ class RefinementPatterns : public Technique {
             {"tessellated_triangles", double(triangles)},
             {"draw_calls", calls},
             {"patterns_drawn", used},
+            {"pattern_set", set.patterns},
+            {"pattern_set_indices", set.indices},
             {"patterns_mib", double(meshes_->bytesUsed()) / 1048576.0},
             {"soup_mib", soupTriangles * 3.0 * sizeof(TessellatedVertex) / 1048576.0},
             {"soup_left_out", soup_ ? double(triangles) - soupTriangles : 0.0}};
   }
 
  private:
+  struct PatternSetSize {
+    double patterns = 0.0, indices = 0.0;
+  };
+  /// All that storing every pattern in advance would take (Schwarz 2009, Table 7.3); adapted ones are
+  /// uniform.
+  PatternSetSize setSize() const {
+    const surfaces::Domain domain = domains_.empty() ? surfaces::Domain::Triangle : domains_[0];
+    std::vector<int> steps;
+    for (int m = 1; m <= settings_.most(); settings_.dyadic() ? m *= 2 : ++m) steps.push_back(m);
+    const bool fourth = domain == surfaces::Domain::Rectangle;
+    PatternSetSize out;
+    const auto add = [&](const surfaces::Factors& factors) {
+      out.patterns += 1.0;
+      out.indices += surfaces::patternOf(domain, factors, settings_.tessellation.cornerFix).indices;
+    };
+    for (const int a : steps) {
+      if (settings_.adapted()) {
+        add({a, a, a, a});
+        continue;
+      }
+      for (const int b : steps)
+        for (const int c : steps) {
+          if (fourth) {
+            for (const int d : steps) add({a, b, c, d});
+          } else {
+            add({a, b, c, 0});
+          }
+        }
+    }
+    return out;
+  }
+
   /// Waits for the factors.
   void buildBatches() {
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
@@ -379,6 +411,9 @@ const RegisteredTechnique<RefinementPatterns> kRefinementPatternsRegistered{
          {"tessellated_triangles", "Triangles made", "triangles", Direction::LowerIsBetter},
          {"draw_calls", "Draw calls", "", Direction::LowerIsBetter},
          {"patterns_drawn", "Patterns drawn", "", Direction::LowerIsBetter},
+         {"pattern_set", "Patterns that there are up to the largest factor, of the first patch's domain", "",
+          Direction::LowerIsBetter},
+         {"pattern_set_indices", "Indices of all of these", "indices", Direction::LowerIsBetter},
          {"patterns_mib", "Patterns stored", "MiB", Direction::LowerIsBetter},
          {"soup_mib", "Triangles stored for later passes", "MiB", Direction::LowerIsBetter},
          {"soup_left_out", "Triangles left out of later passes for want of capacity", "triangles",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes whose mirrors show other objects (Roger 2008, sections 2.3, 3.5 and 5.4).
+// The smallest scene with a mirror (Roger 2008, sections 2.3, 3.5 and 5.4).
+#include "renderer/scene/mirrors/mirror_parts.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 
@@ -18,27 +19,13 @@ struct MirrorBallSettings {
   }
 };
 
-Material mirror(double reflectance) {
-  Material material;
-  material.name = "mirror";
-  material.albedo = glm::vec3(0.02F);
-  material.mirror = glm::vec3(static_cast<float>(reflectance));
-  return material;
-}
-
 /// A ball among a cone, two boxes and a checkered floor, one of the boxes in contact with it.
 Scene buildMirrorBall(const MirrorBallSettings& settings) {
   const glm::dvec3 centre(0.0, 0.5, 0.0);
   Scene scene;
-  addGround(scene, 6.0);
-  Pattern& pattern = scene.materials[0].pattern;
-  pattern.kind = Pattern::Kind::Checker;
-  pattern.size = 0.25;
-  pattern.origin.y = 0.125;  // the floor lies within cells, not between them
-  Mesh ball = sphere(centre, 0.5, settings.tessellation);
-  for (const glm::dvec3& position : ball.positions)
-    ball.normals.emplace_back(glm::normalize(position - centre));
-  addPart(scene, ball, mirror(settings.reflectance));
+  addCheckeredGround(scene, 6.0, 0.25);
+  addPart(scene, ellipsoid(centre, glm::dvec3(0.5), settings.tessellation),
+          mirrorMaterial(settings.reflectance));
   addPart(scene, "touching box", box({0.5, 0.3, -0.2}, {0.8, 0.7, 0.2}), {0.7F, 0.25F, 0.2F});
   addPart(scene, "box", box({-1.2, 0.0, 0.2}, {-0.8, 0.6, 0.6}), {0.25F, 0.5F, 0.7F});
   addPart(scene, "cone", frustum({0.2, 0.0, 1.0}, {0.2, 0.5, 1.0}, 0.2, 0.0, 48), {0.3F, 0.6F, 0.3F});

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stream reduction where shaders can scatter: scan + scatter in one dispatch or three, and the unordered
+// append (Roger 2008, sections 4.4 and 4.5).
+#include "renderer/compute/reduction_forms.h"
+
+namespace limen::compute {
+namespace {
+
+class ScatterForm : public StreamReduction::BackEnd {
+ public:
+  ScatterForm(gl::Context& context, uint32_t most, const ReductionSettings& settings, ReductionForm form)
+      : perTile_(static_cast<uint32_t>(kReductionGroup * kReductionRows * 4 / settings.lanes)),
+        state_((int64_t{tilesOf(most)} + kReductionTiles) * 4, nullptr) {
+    // Each dispatch leaves it cleared.
+    state_.clearUint(kReductionNothing);
+    const auto program = [&](const char* stage) {
+      gl::ShaderDefines defines = reductionDefines(settings);
+      defines[stage] = "1";
+      return &context.programs().compute("renderer/compute/reduction_scatter.comp.glsl", defines);
+    };
+    if (form == ReductionForm::ScanScatter) {
+      first_ = program("COUNT");
+      tiles_ = program("TILES");
+      last_ = program("SCATTER");
+    } else {
+      last_ = program(form == ReductionForm::Append ? "APPEND" : "LOOK_BACK");
+    }
+  }
+
+  void run(const StreamInput& in, const StreamOutput& out) const override {
+    bindStream(in, out);
+    state_.bindStorage(kReductionStateBuffer);
+    const auto dispatch = [&](const gl::Program* program, uint32_t groups) {
+      if (!program) return;
+      program->use();
+      setStream(*program, in, out);
+      dispatchGroups(groups);
+    };
+    const uint32_t tiles = tilesOf(in.most);
+    dispatch(first_, tiles);
+    dispatch(tiles_, 1);
+    dispatch(last_, tiles);
+  }
+
+  int64_t bytes() const override { return state_.bytes(); }
+
+ private:
+  /// At least one, which writes the count.
+  uint32_t tilesOf(uint32_t items) const { return items == 0 ? 1 : (items - 1) / perTile_ + 1; }
+
+  uint32_t perTile_;
+  const gl::Program *first_ = nullptr, *tiles_ = nullptr, *last_ = nullptr;
+  gl::Buffer state_;
+};
+
+}  // namespace
+
+std::unique_ptr<StreamReduction::BackEnd> makeScatterForm(gl::Context& context, uint32_t most,
+                                                          const ReductionSettings& settings,
+                                                          ReductionForm form) {
+  return std::make_unique<ScatterForm>(context, most, settings, form);
+}
+
+}  // namespace limen::compute

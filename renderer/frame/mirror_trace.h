@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/frame/shaded.h"
+#include "renderer/gl/program.h"
+
+namespace limen::frame {
+
+/// For programs that include mirror_trace.glsl: its defines, and its uniforms, storage and tree.
+gl::ShaderDefines mirrorTraceDefines(const ShadedSetting& shading, const Frame& frame);
+void configureMirrorTrace(const gl::Program& program, Frame& frame, const ShadedSetting& shading);
+
+}  // namespace limen::frame

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/scene/curved/subdivision_cages.h"
+
+#include <cmath>
+
+namespace limen::scene {
+
+surfaces::PolygonMesh pyramids(uint32_t valence) {
+  surfaces::PolygonMesh mesh;
+  mesh.points = {{0.1, 1.0, 0.0}, {0.0, -1.2, 0.1}};
+  for (uint32_t i = 0; i < valence; ++i) {
+    const double turn = 2.0 * M_PI * i / valence, radius = 1.0 + 0.15 * std::sin(3.0 * turn + 1.0);
+    mesh.points.emplace_back(radius * std::cos(turn), 0.1 * std::cos(2.0 * turn), -radius * std::sin(turn));
+    const uint32_t a = 2 + i, b = 2 + (i + 1) % valence;
+    mesh.faces.push_back({0, a, b});
+    mesh.faces.push_back({1, b, a});
+  }
+  return mesh;
+}
+
+surfaces::PolygonMesh tetrahedron() {
+  surfaces::PolygonMesh mesh;
+  mesh.points = {{0.0, 1.0, 0.0}, {1.0, -0.4, 0.6}, {0.0, -0.4, -1.1}, {-1.0, -0.4, 0.6}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  return mesh;
+}
+
+surfaces::PolygonMesh bumpySheet(uint32_t side, bool quads) {
+  surfaces::PolygonMesh mesh;
+  for (uint32_t y = 0; y <= side; ++y)
+    for (uint32_t x = 0; x <= side; ++x)
+      mesh.points.emplace_back(x, y, 0.7 * std::sin(2.1 * x + 0.3 * y) * std::cos(1.7 * y));
+  for (uint32_t y = 0; y < side; ++y)
+    for (uint32_t x = 0; x < side; ++x) {
+      const uint32_t a = x + (side + 1) * y, b = a + 1, c = b + side + 1, d = c - 1;
+      if (quads)
+        mesh.faces.push_back({a, b, c, d});
+      else
+        mesh.faces.insert(mesh.faces.end(), {{a, b, c}, {a, c, d}});
+    }
+  return mesh;
+}
+
+surfaces::PolygonMesh openFan(uint32_t faces) {
+  surfaces::PolygonMesh mesh;
+  mesh.points = {{0.0, 0.0, 0.2}};
+  for (uint32_t i = 0; i <= faces; ++i) {
+    const double turn = M_PI * i / faces;
+    mesh.points.emplace_back(std::cos(turn), std::sin(turn), 0.2 * std::sin(5.0 * i));
+  }
+  for (uint32_t i = 0; i < faces; ++i) mesh.faces.push_back({0, 1 + i, 2 + i});
+  return mesh;
+}
+
+}  // namespace limen::scene

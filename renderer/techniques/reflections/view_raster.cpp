@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/reflections/view_raster.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/reflections/reflection_bindings.h"
+
+namespace limen::techniques {
+
+ViewRaster::ViewRaster(frame::Frame& frame, glm::ivec2 sizePx, const std::vector<uint32_t>& groups,
+                       bool masked)
+    : program_(
+          frame.context().programs().get({"renderer/techniques/reflections/view_raster.vert.glsl",
+                                          "renderer/techniques/reflections/view_raster.frag.glsl"},
+                                         masked ? gl::ShaderDefines{{"MASKED", "1"}} : gl::ShaderDefines{})),
+      ids_(gl::Format::R32UI, sizePx),
+      depth_(gl::Format::Depth32F, sizePx),
+      framebuffer_({&ids_}, &depth_),
+      groups_(groups) {}
+
+void ViewRaster::clear() const {
+  framebuffer_.bind();
+  constexpr std::array<GLuint, 4> kNothing = {frame::TriangleIds::kNone, 0, 0, 0};
+  constexpr GLfloat kFar = 0.0F;
+  glClearBufferuiv(GL_COLOR, 0, kNothing.data());
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+}
+
+void ViewRaster::draw(const frame::Frame& frame, const glm::mat4& anchorToClip, glm::vec4 clipPlane,
+                      uint32_t leftOut, const gl::Texture* mask, uint32_t wanted) const {
+  framebuffer_.bind();
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_CLIP_DISTANCE0);
+  program_.use();
+  program_.set("anchorToClip", anchorToClip);
+  program_.set("clipPlane", clipPlane);
+  program_.set("leftOut", leftOut);
+  program_.set("wanted", wanted);
+  groups_.bindStorage(kViewGroupsBuffer);
+  if (mask) mask->bindTexture(kViewMaskUnit);
+  frame.geometry().draw();
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_DEPTH_TEST);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+}  // namespace limen::techniques

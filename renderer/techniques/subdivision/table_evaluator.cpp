@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/subdivision/table_evaluator.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+#include "renderer/techniques/subdivision/table_records.h"
+#include "renderer/techniques/tessellation/tessellation_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+const std::string kFolder = "renderer/techniques/subdivision/";
+constexpr int64_t kMostBytes = int64_t{3} << 30;  // of vertices or indices
+
+surfaces::TableLayout layoutFor(const surfaces::SubdivisionSurface& surface,
+                                const TableEvaluatorSettings& settings) {
+  const int steps = settings.normals == NormalStart::Second ? 2 : 1;
+  if (settings.level < steps)
+    throw Error("tables start after " + std::to_string(steps) + " steps", "level",
+                "use " + std::to_string(steps) + " or more");
+  if (settings.normals == NormalStart::Geometry && surface.scheme != surfaces::SubdivisionScheme::Loop)
+    throw Error("tables of tangents are of Loop's scheme alone", "normals", "use normals: first");
+  return surfaces::tableLayout(surface.cage, surface.scheme, settings.level - steps, steps,
+                               settings.normals == NormalStart::Geometry);
+}
+
+uint32_t counted(int64_t count, int64_t bytesEach, const char* what) {
+  if (count * bytesEach > kMostBytes)
+    throw Error(std::to_string(count) + " " + what + " do not fit into a buffer", "level",
+                "use a lower level");
+  return static_cast<uint32_t>(count);
+}
+
+/// Groups of the usual size, in rows where there are many.
+void dispatchGroups(uint32_t groups) {
+  const uint32_t rows = (groups + 65534) / 65535;
+  glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+}
+
+}  // namespace
+
+TableEvaluator::TableEvaluator(gl::Context& context, const surfaces::SubdivisionSurface& surface,
+                               uint32_t material, glm::dvec3 anchor, const TableEvaluatorSettings& settings)
+    : settings_(settings),
+      surface_(surface),
+      anchor_(anchor),
+      layout_(layoutFor(surface, settings)),
+      vertexCount_(counted(layout_.verticesAt(settings.level - layout_.steps),
+                           int64_t{sizeof(TessellatedVertex)}, "vertices")),
+      triangleCount_(counted(layout_.trianglesAt(settings.level - layout_.steps), 12, "triangles")),
+      rest_(cageRecords(surface, anchor)),
+      joints_(int64_t(std::max<size_t>(surface.joints.size(), 1)) * int64_t{sizeof(glm::mat4)}, nullptr),
+      positions_(int64_t(surface.cage.points.size()) * 16, nullptr),
+      entries_(0, nullptr),
+      terms_(0, nullptr),
+      fans_(0, nullptr),
+      controls_(int64_t(layout_.controls.size()) * int64_t{sizeof(ControlVertex)}, nullptr),
+      patches_(0, nullptr),
+      points_(0, nullptr),
+      tables_(tableWeights(layout_)),
+      places_(placeRecords(layout_)),
+      animate_(context.programs().compute(kFolder + "animate.comp.glsl")),
+      controlsProgram_(context.programs().compute(kFolder + "controls.comp.glsl",
+                                                  settings.normals == NormalStart::Cage
+                                                      ? gl::ShaderDefines{{"NORMALS_FROM_CAGE", "1"}}
+                                                      : gl::ShaderDefines{})) {
+  const EntryRecords records = entryRecords(layout_);
+  entries_ = gl::Buffer(records.entries);
+  terms_ = gl::Buffer(records.terms);
+  fans_ = gl::Buffer(records.fans);
+  const PatchRecords patches = patchRecords(layout_, material);
+  patches_ = gl::Buffer(patches.patches);
+  points_ = gl::Buffer(patches.points);
+  if (settings.normals == NormalStart::Cage) {
+    const EntryRecords cage = cageFanRecords(surface.cage);
+    cageEntries_.emplace(cage.entries);
+    cageFans_.emplace(cage.fans);
+    cageNormals_.emplace(int64_t(surface.cage.points.size()) * 16, nullptr);
+    cageNormalsProgram_ = &context.programs().compute(kFolder + "cage_normals.comp.glsl");
+  } else {
+    normalsProgram_ = &context.programs().compute(kFolder + "control_normals.comp.glsl");
+  }
+}
+
+gl::ShaderDefines TableEvaluator::defines() const {
+  gl::ShaderDefines out;
+  out["CORNERS"] = std::to_string(layout_.corners());
+  out["TABLE_SEGMENTS"] = std::to_string(1 << layout_.tableLevel);
+  if (settings_.normals == NormalStart::Geometry) out["GEOMETRY_NORMALS"] = "1";
+  return out;
+}
+
+void TableEvaluator::bindTables(const gl::Program& program) const {
+  patches_.bindStorage(kSubdivisionPatchesBuffer);
+  points_.bindStorage(kSubdivisionPointsBuffer);
+  tables_.bindStorage(kSubdivisionTablesBuffer);
+  places_.bindStorage(kSubdivisionPlacesBuffer);
+  controls_.bindStorage(kControlsBuffer);
+  program.use();
+  const auto controls = static_cast<uint32_t>(layout_.controls.size());
+  program.set("rows", layout_.rows());
+  program.set("tangentStride", static_cast<uint32_t>(layout_.tableBytes() / 4));
+  program.set("firstEdgeVertex", controls);
+  program.set("firstInnerVertex", controls + layout_.fineEdges * static_cast<uint32_t>(segments() - 1));
+}
+
+void TableEvaluator::allocateMesh(gl::Context& context) {
+  vertices_.emplace(int64_t{vertexCount_} * int64_t{sizeof(TessellatedVertex)}, nullptr);
+  indices_.emplace((int64_t{triangleCount_} * 12 + 15) / 16 * 16, nullptr);
+  main_ = &context.programs().compute(kFolder + "fine_vertices.comp.glsl", defines());
+  const gl::Program& program = context.programs().compute(kFolder + "fine_indices.comp.glsl", defines());
+  bindTables(program);
+  indices_->bindStorage(kFineIndicesBuffer);
+  program.set("segments", segments());
+  program.set("triangleCount", triangleCount_);
+  dispatchGroups((triangleCount_ + uint32_t(kSubdivisionGroup) - 1) / uint32_t(kSubdivisionGroup));
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+}
+
+void TableEvaluator::dispatch(const gl::Program& program, const char* count, uint32_t of) const {
+  program.use();
+  program.set(count, of);
+  dispatchGroups((of + uint32_t(kSubdivisionGroup) - 1) / uint32_t(kSubdivisionGroup));
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
+  const auto cage = static_cast<uint32_t>(surface_.cage.points.size()),
+             controls = static_cast<uint32_t>(layout_.controls.size());
+  {
+    const auto scope = frame.passes().open("subdivision/animate");
+    std::vector<glm::mat4> joints;
+    glm::dmat4 toAnchor(1.0), fromAnchor(1.0);
+    toAnchor[3] = glm::dvec4(-anchor_, 1.0), fromAnchor[3] = glm::dvec4(anchor_, 1.0);
+    for (const surfaces::Joint& joint : surface_.joints)
+      joints.emplace_back(toAnchor * joint.at(timeS) * fromAnchor);
+    if (!joints.empty()) joints_.write(0, int64_t(joints.size() * sizeof(glm::mat4)), joints.data());
+    rest_.bindStorage(kCageRestBuffer);
+    joints_.bindStorage(kCageJointsBuffer);
+    positions_.bindStorage(kCagePositionsBuffer);
+    dispatch(animate_, "vertexCount", cage);
+  }
+  if (cageNormalsProgram_) {
+    const auto scope = frame.passes().open("subdivision/cage_normals");
+    cageEntries_->bindStorage(kControlEntriesBuffer);
+    cageFans_->bindStorage(kFansBuffer);
+    cageNormals_->bindStorage(kCageNormalsBuffer);
+    dispatch(*cageNormalsProgram_, "vertexCount", cage);
+  }
+  {
+    const auto scope = frame.passes().open("subdivision/first_positions");
+    entries_.bindStorage(kControlEntriesBuffer);
+    terms_.bindStorage(kStencilTermsBuffer);
+    controls_.bindStorage(kControlsBuffer);
+    dispatch(controlsProgram_, "controlCount", controls);
+  }
+  if (normalsProgram_) {
+    const auto scope = frame.passes().open("subdivision/first_normals");
+    fans_.bindStorage(kFansBuffer);
+    dispatch(*normalsProgram_, "controlCount", controls);
+  }
+}
+
+void TableEvaluator::runMain(frame::Frame& frame) const {
+  const auto scope = frame.passes().open("subdivision/main");
+  bindTables(*main_);
+  vertices_->bindStorage(kFineVerticesBuffer);
+  const int level = settings_.level - layout_.steps;
+  main_->set("rowsOfLevel", surfaces::placesAt(layout_.corners(), level));
+  main_->set("segments", segments());
+  const auto patches = static_cast<uint32_t>(layout_.patches.size());
+  main_->set("patchCount", patches);
+  dispatchGroups(patches);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+int64_t TableEvaluator::bytes() const {
+  return patches_.bytes() + points_.bytes() + tables_.bytes() + places_.bytes();
+}
+
+void TableEvaluator::stateBytes(frame::Frame& frame) const {
+  frame.passes().setBytesHeld("subdivision/animate", rest_.bytes() + joints_.bytes() + positions_.bytes());
+  frame.passes().setBytesHeld("subdivision/first_positions",
+                              entries_.bytes() + terms_.bytes() + controls_.bytes());
+  frame.passes().setBytesHeld("subdivision/first_normals", fans_.bytes());
+  frame.passes().setBytesHeld("subdivision/main",
+                              bytes() + (vertices_ ? vertices_->bytes() + indices_->bytes() : 0));
+}
+
+}  // namespace limen::techniques
