@@ -32,23 +32,58 @@ float depthInTerms(float depth, float first) {
 #endif
 }
 
+#ifdef MEASURE_DEPTH
+// Range of the depths that the samples in the window's corners see of one triangle.
+float cornerRange(ivec2 pixel, uint id) {
+  const uvec3 vertices = sceneTriangle(id);
+  const vec3 a = (anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz;
+  const vec3 b = (anchorToCamera * vec4(scenePosition(vertices.y), 1.0)).xyz;
+  const vec3 c = (anchorToCamera * vec4(scenePosition(vertices.z), 1.0)).xyz;
+  const vec3 plane = planeNormal(a, b, c);
+  float first = 1.0, low = 1.0, high = 1.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const ivec2 place = WINDOW * pixel + (WINDOW - 1) * ivec2(corner & 1, corner >> 1);
+    const float depth = depthSeen(a, b, c, plane, pixelRay(place, rayScale, sizePx));
+    if (corner == 0) first = depth;
+    const float inTerms = depthInTerms(depth, first);
+    low = corner == 0 ? inTerms : min(low, inTerms);
+    high = corner == 0 ? inTerms : max(high, inTerms);
+  }
+  return high - low;
+}
+#endif
+
 // Further samples that the geometry asks for; all if a surface ends at the background.
 float geometryCount(ivec2 pixel) {
 #if GEOMETRY == GEOMETRY_NONE
   return 0.0;
 #else
-  uint ids[kSamples];
-  bool oneTriangle = true, background = false, surface = false;
-  for (int i = 0; i < kSamples; ++i) {
-    ids[i] = texelFetch(sampleIds, WINDOW * pixel + windowPlace(i), 0).x;
-    if (ids[i] == kNothing) background = true; else surface = true;
-    if (ids[i] != ids[0]) oneTriangle = false;
+  const uint first = texelFetch(sampleIds, WINDOW * pixel, 0).x;
+  bool oneTriangle = true, background = first == kNothing;
+  for (int i = 1; i < kSamples; ++i) {
+    const uint id = texelFetch(sampleIds, WINDOW * pixel + windowPlace(i), 0).x;
+    if (id == kNothing) background = true;
+    if (id != first) oneTriangle = false;
   }
-  if (!surface) return 0.0;
-  if (background) return float(kSamples - 1);
-#if defined(FLAT_TRIANGLES) && !defined(MEASURE_DEPTH)
+  if (background) return oneTriangle ? 0.0 : float(kSamples - 1);
+#ifdef FLAT_TRIANGLES
+#ifndef MEASURE_DEPTH
   if (oneTriangle) return 0.0;
+#elif METRIC_FORM != METRIC_FORM_PRINTED
+  if (oneTriangle) {
+    // Depths on a plane are extreme at the window's corners.
+    const float range = cornerRange(pixel, first);
+#if GEOMETRY == GEOMETRY_MIN_MAX_DEPTH
+    return depthScale * range;
+#else
+    // A variance is at most a quarter of the squared range (Popoviciu 1935).
+    if (depthScale * 0.25 * range * range < 0.5) return 0.0;
 #endif
+  }
+#endif
+#endif
+  uint ids[kSamples];
+  for (int i = 0; i < kSamples; ++i) ids[i] = texelFetch(sampleIds, WINDOW * pixel + windowPlace(i), 0).x;
   float firstDepth = 1.0;
   float depths[kSamples];
   vec3 normals[kSamples];

@@ -37,7 +37,7 @@ struct MinMaxDepth {
 };
 struct NormalCone {
   static constexpr const char *kKind = "normal_cone", *kSummary = "cone of normals around their mean (NC)";
-  double normalScale = 100.0;
+  double normalScale = 300.0;
   MetricForm form = MetricForm::Stable;
   static const SettingsTable<NormalCone>& table();
 };
@@ -57,7 +57,7 @@ struct NormalVariance {
 };
 struct NormalAndDepth {
   static constexpr const char *kKind = "normal_and_depth", *kSummary = "the larger of NC and DV (ND)";
-  double normalScale = 100.0, depthScale = 1e6;
+  double normalScale = 300.0, depthScale = 1e6;
   DepthTerms depth = DepthTerms::Relative;
   MetricForm form = MetricForm::Stable;
   static const SettingsTable<NormalAndDepth>& table();
@@ -70,7 +70,7 @@ struct LightnessRange {
   static constexpr const char
       *kKind = "luminance_range",
       *kSummary = "range of luminance of the first samples of a pixel and its four neighbours";
-  double scale = 100.0, leastRange = 1.0 / 32.0, edgeShare = 0.125;
+  double scale = 100.0, leastRange = 1.0 / 32.0, edgeShare = 0.05;
   static const SettingsTable<LightnessRange>& table();
 };
 
@@ -90,7 +90,7 @@ struct AdaptiveSettings {
   bool flatTriangles = true;
   bool powersOfTwo = false;
   int block = 1;
-  SampleExecution execution = SampleExecution::Balanced;
+  SampleExecution execution = SampleExecution::Sorted;
   SampleShading samples;
   static const SettingsTable<AdaptiveSettings>& table();
 };
