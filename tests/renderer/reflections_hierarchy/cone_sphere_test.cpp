@@ -181,6 +181,16 @@ TYPED_TEST(ConeSphereTest, MergedBundlesContainTheirParts) {
   }
 }
 
+/// Its direction may have any length.
+TYPED_TEST(ConeSphereTest, ARaysNodeContainsTheRay) {
+  using T = TypeParam;
+  Random random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::vec<3, T> origin(random.inBox(5.0)), way(random.between(0.01, 100.0) * random.direction());
+    expectWithin(cone_sphere::ofRay(origin, way), {Exact(origin), Exact(way)});
+  }
+}
+
 /// Nothing can be said of the mean of directions that cancel, or of rays that go opposite ways.
 TYPED_TEST(ConeSphereTest, DirectionsWithoutAMeanAreAllDirections) {
   using T = TypeParam;

@@ -30,8 +30,8 @@ void main() {
       const vec4 origin = texelFetch(origins, at, 0);
       // Written so that a NaN is no ray.
       if (origin.w > 0.0 && all(lessThan(abs(origin.xyz), vec3(3.0e38))))
-        node = ConeSphere(reversed ? lightAt : origin.xyz, 0.0,
-                          normalize(reversed ? -texelFetch(directions, at, 0).xyz : texelFetch(directions, at, 0).xyz), 0.0);
+        node = rayNode(reversed ? lightAt : origin.xyz,
+                       reversed ? -texelFetch(directions, at, 0).xyz : texelFetch(directions, at, 0).xyz);
       store(0u, at, node);
       if (clears) hits[at.y * sizePx.x + at.x] = uvec2(kFarthestBits, kHierarchyNoTriangle);
     } else {

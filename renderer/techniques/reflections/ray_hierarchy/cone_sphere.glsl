@@ -24,6 +24,8 @@ void includePart(inout ConeSphere whole, ConeSphere part) {
 
 const ConeSphere kNoRays = ConeSphere(vec3(0.0), -1.0, vec3(0.0, 0.0, 1.0), 0.0);
 
+ConeSphere rayNode(vec3 origin, vec3 direction) { return ConeSphere(origin, 0.0, normalize(direction), kInflation); }
+
 #if MERGE == MERGE_MEAN
 ConeSphere merged(ConeSphere parts[4]) {
   ConeSphere whole = kNoRays;

@@ -46,6 +46,12 @@ namespace cone_sphere {
 template <class T>
 constexpr T kInflation = 16 * std::numeric_limits<T>::epsilon();
 
+/// A ray: normalising its direction, of any length, turns it by some roundings.
+template <class T>
+ConeSphere<T> ofRay(const glm::vec<3, T>& origin, const glm::vec<3, T>& direction) {
+  return {origin, 0, glm::normalize(direction), kInflation<T>};
+}
+
 /// Tangent of half the angle between two unit vectors: no cancellation, however small or wide the angle.
 template <class T>
 T halfAngle(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
