@@ -7,6 +7,7 @@
 //   SPARSE  four places for each pair, valid or not, that a stream reduction packs; pairs from `capacity` on find no room
 uniform ivec2 sizePx;
 #include "renderer/compute/reduction_bindings.h"
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/techniques/reflections/ray_hierarchy/nodes.glsl"
 #ifdef FINISH
 #include "renderer/techniques/reflections/ray_hierarchy/nearest.glsl"

@@ -162,10 +162,11 @@ class RayHierarchyReflections : public Technique {
   static std::vector<Quantity> quantities() {
     const Direction lower = Direction::LowerIsBetter;
     const std::string source = "Roger 2008, section 3.5";
-    return {{"cone_sphere_tests", "Tests of nodes with spheres", "tests", lower, source},
+    return {{"cone_sphere_tests", "Tests of nodes with spheres, but of pairs without room", "tests", lower,
+             source},
             {"pairs", "Pairs of nodes and triangles, all levels", "pairs", lower, source},
             {"pairs_max", "Pairs of the level with the most", "pairs", lower, source},
-            {"leaf_pairs", "Pairs at the last level", "pairs", lower, source},
+            {"leaf_pairs", "Pairs at the last level, but of those without room", "pairs", lower, source},
             {"triangles_per_ray", "Triangles tested per mirrored ray of the first bounce", "triangles", lower,
              source},
             {"mirror_rays", "Rays of the first bounce", "rays", Direction::Neither},
