@@ -366,8 +366,20 @@ TEST_F(TablesOnGpu, FormsDrawTheSamePicture) {
     };
     const Image compute = picture("compute"), instanced = picture("instanced"),
                 stages = picture("tessellation_stages");
-    // Shading alone differs, by the order of sums of normals.
-    EXPECT_LT(meanDifference(compute, instanced), 1e-6) << scheme;
+    // Shading differs by the order of sums of normals. Where a GPU rasterises the one in compute and the
+    // other by the driver, which snaps to 1/256 px: silhouettes cross some 600 pixels, of which 2 in 128 have
+    // their centre within 1/128 px of an edge.
+    size_t elsewhere = 0;
+    double sum = 0.0;
+    for (size_t pixel = 0; pixel < compute.pixels(); ++pixel) {
+      const double difference = std::abs(compute.data[4 * pixel] - instanced.data[4 * pixel]);
+      if (difference > 1e-3)
+        ++elsewhere;
+      else
+        sum += difference;
+    }
+    EXPECT_LE(elsewhere, 10U) << scheme;
+    EXPECT_LT(sum / double(compute.pixels()), 1e-6) << scheme;
     EXPECT_LT(meanDifference(compute, stages), 2e-3) << scheme;
     const Image recursive =
         render(scene, "subdivision/recursive", {{"level", int64_t{4}}}, {160, 120}).product;

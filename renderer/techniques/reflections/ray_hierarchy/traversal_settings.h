@@ -53,7 +53,7 @@ struct SeparateReduction {
 using PairReduction = std::variant<FusedReduction, SeparateReduction>;
 
 struct TraversalSettings {
-  BundleMerge merge = BundleMerge::Mean;
+  BundleMerge merge = BundleMerge::Pairwise;
   BundleTest test = BundleTest::Tight;
   int startNodes = 256;
   int leafSide = 1;
