@@ -79,7 +79,9 @@ TEST_F(ShadedShadowTest, ThePictureIsLitByTheInnerVisibility) {
   frame::Frame frame(context(), scene, gpuScene, {61, 45});
   frame.begin();
   const Image open = frame.get<frame::Shaded>(frame::ShadedSetting{}).texture().read();
-  const Image ambient = frame.get<frame::Shaded>(frame::ShadedSetting{.diffuse = 0.0}).texture().read();
+  frame::ShadedSetting ambientAlone;
+  ambientAlone.diffuse = 0.0;
+  const Image ambient = frame.get<frame::Shaded>(ambientAlone).texture().read();
   frame.end();
   // Fragment shaders are compared with these above: on a GPU single samples may differ.
   for (const char* loop : {"own_pass", "compute"}) {
