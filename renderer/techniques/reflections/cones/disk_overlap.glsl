@@ -36,7 +36,11 @@ vec3 edgeSums(vec2 p, vec2 q) {
 vec3 diskOverlap(in vec2 corners[4], int count) {
   if (count < 3) return vec3(0.0);
   bool inside = true;
-  for (int i = 0; i < count; ++i) inside = inside && dot(corners[i], corners[i]) <= 1.0;
+  for (int i = 0; i < count; ++i) {
+    // Asked outright: a compiler may turn a comparison round, and what was false for a NaN is true then.
+    if (any(isnan(corners[i])) || any(isinf(corners[i]))) return vec3(0.0);
+    inside = inside && dot(corners[i], corners[i]) <= 1.0;
+  }
   // A small figure inside loses digits unless it is measured from one of its own corners.
   const vec2 from = inside ? corners[0] : vec2(0.0);
   vec3 sums = vec3(0.0);
@@ -45,7 +49,7 @@ vec3 diskOverlap(in vec2 corners[4], int count) {
     sums += inside ? triangleSums(p - from, q - from) : edgeSums(p, q);
   }
   const float area = abs(sums.x);
-  // Rounding alone leaves less than this of a figure that does not meet the disk; written so that NaN has none.
+  // Rounding alone leaves less than this of a figure that does not meet the disk.
   if (!(area > (inside ? 0.0 : 2e-6))) return vec3(0.0);
   return vec3(area, from + sums.yz / sums.x);
 }
