@@ -145,14 +145,17 @@ std::vector<std::string> comparable(const std::string& technique) {
 std::optional<Entry> usualReference(const std::string& technique) {
   const TechniqueInfo& shown = techniqueNamed(technique);
   const techniques::ProductKind kind = shown.product;
-  // Of curved surfaces the mesh is an approximation of its own. Rays against the exact
-  // triangles share no approximation with any technique; a reference that can start coarse shows something
-  // soon.
+  // What one family shows another may not: occlusion alone, or mirrors. Of curved surfaces the mesh is an
+  // approximation of its own. Rays against the exact triangles share no approximation with any technique; a
+  // reference that can start coarse shows something soon.
+  const auto family = [](const std::string& name) { return name.substr(0, name.find('/')); };
   const auto isCurved = [](const TechniqueInfo& info) {
     return std::find(info.needs.begin(), info.needs.end(), "curved_surfaces") != info.needs.end();
   };
   const auto worth = [&](const TechniqueInfo& info) {
-    return (isCurved(info) && isCurved(shown) ? 4 : 0) + (info.effort.empty() ? 0 : 2) + (info.onCpu ? 1 : 0);
+    const bool own = !isCurved(shown) && family(info.name) == family(technique);
+    return (own ? 8 : 0) + (isCurved(info) && isCurved(shown) ? 4 : 0) + (info.effort.empty() ? 0 : 2) +
+           (info.onCpu ? 1 : 0);
   };
   const TechniqueInfo* best = nullptr;
   for (const auto& [name, info] : TechniqueRegistry::instance().all())

@@ -143,8 +143,7 @@ const techniques::RegisteredTechnique<DistributionTraced> kDistributionRegistere
      .product = techniques::ProductKind::Colour,
      .needs = {"mirrors"},
      .reference = true,
-     .counters = {{"paths_per_px", "Paths from mirrors a pixel, at most", "", Direction::LowerIsBetter}},
-     .effort = "places"},
+     .counters = {{"paths_per_px", "Paths from mirrors a pixel, at most", "", Direction::LowerIsBetter}}},
     distributionBound};
 
 }  // namespace

@@ -128,6 +128,10 @@ TEST(ViewSetup, AUsualReferenceMakesTheSameKindOfProduct) {
   // Not rays against the mesh, which approximates the patches itself.
   EXPECT_EQ(usualReference("tessellation/compute")->name, "ray_casting/exact");
   EXPECT_EQ(usualReference("soft_shadows/bitmask")->name, "soft_shadows/ray_traced");
+  // Of its own family: not occlusion for mirrors, nor samples of a cone for what has none.
+  EXPECT_EQ(usualReference("reflections/ray_hierarchy")->name, "reflections/reference");
+  EXPECT_EQ(usualReference("ambient_occlusion/separable")->name, "ambient_occlusion/ray_traced");
+  EXPECT_EQ(usualReference("antialiasing/adaptive")->name, "antialiasing/ray_traced");
 }
 
 TEST(Mailbox, HandsOverOnlyTheNewest) {

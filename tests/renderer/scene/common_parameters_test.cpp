@@ -106,7 +106,8 @@ TEST(CommonParameters, TimeMovesAlongTheCameraPath) {
     EXPECT_NE(later.contentHash(), path.contentHash());
   }
   // A still camera knows no time.
-  EXPECT_EQ(build("columns_hall", {{"camera.time_s", 3.0}}).contentHash(), build("columns_hall").contentHash());
+  EXPECT_EQ(build("columns_hall", {{"camera.time_s", 3.0}}).contentHash(),
+            build("columns_hall").contentHash());
 }
 
 }  // namespace

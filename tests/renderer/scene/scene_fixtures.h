@@ -109,6 +109,8 @@ inline Given needed(const std::string& scene) {
   if (scene == "mirrors/mesh") return {{"file", smallMeshFile()}};
   if (scene == "mirrors/herd") return {{"figures", int64_t{4}}};
   if (scene == "mirrors/bunny") return {{"detail", 0.01}};
+  // Only runs have a length.
+  if (scene == "stream") return {{"distribution", std::string("runs")}};
   return scene == "mesh" ? Given{{"file", smallMeshFile()}} : Given{};
 }
 

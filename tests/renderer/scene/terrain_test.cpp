@@ -224,7 +224,8 @@ TEST(Aperture, OfAWallIsHalfTheSkyLeaningAway) {
 
 TEST(TerrainScene, BuildsItsTilesWithoutALevelSmallerThanTwoCells) {
   const Scene scene = fixtures::build(
-      "lod/terrain", {{"tiles.per_side", int64_t{2}}, {"tiles.cells", int64_t{8}}, {"tiles.levels", int64_t{6}}});
+      "lod/terrain",
+      {{"tiles.per_side", int64_t{2}}, {"tiles.cells", int64_t{8}}, {"tiles.levels", int64_t{6}}});
   ASSERT_EQ(scene.lodObjects.size(), 4U);
   for (const LodObject& object : scene.lodObjects) {
     ASSERT_EQ(object.levels.size(), 3U);
