@@ -366,9 +366,10 @@ TEST_F(TablesOnGpu, FormsDrawTheSamePicture) {
     };
     const Image compute = picture("compute"), instanced = picture("instanced"),
                 stages = picture("tessellation_stages");
-    // Shading differs by the order of sums of normals. Where a GPU rasterises the one in compute and the
-    // other by the driver, which snaps to 1/256 px: silhouettes cross some 600 pixels, of which 2 in 128 have
-    // their centre within 1/128 px of an edge.
+    // Shading differs by the order of sums of normals (1e-7). A GPU rasterises the one in compute and the
+    // other by the driver, which snaps corners to 1/256 px: silhouettes cross some 600 pixels, of which 2 in
+    // 128 have their centre within 1/128 px of an edge; elsewhere shading, which changes by 0.02 a pixel at
+    // most over a third of the picture, moves by as much: 0.02 / 256 / 3.
     size_t elsewhere = 0;
     double sum = 0.0;
     for (size_t pixel = 0; pixel < compute.pixels(); ++pixel) {
@@ -379,7 +380,7 @@ TEST_F(TablesOnGpu, FormsDrawTheSamePicture) {
         sum += difference;
     }
     EXPECT_LE(elsewhere, 10U) << scheme;
-    EXPECT_LT(sum / double(compute.pixels()), 1e-6) << scheme;
+    EXPECT_LT(sum / double(compute.pixels()), 2.7e-5) << scheme;
     EXPECT_LT(meanDifference(compute, stages), 2e-3) << scheme;
     const Image recursive =
         render(scene, "subdivision/recursive", {{"level", int64_t{4}}}, {160, 120}).product;
