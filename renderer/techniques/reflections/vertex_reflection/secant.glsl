@@ -44,8 +44,11 @@ vec2 mapPlace(vec3 u) {
 vec3 mapPlace(vec3 u) { return u; }
 #endif
 
-// Radius and its gradient.
-vec4 radialPoint(vec3 u) { return textureLod(reflectorMap, mapPlace(u), 0.0); }
+// Radius and its gradient; 0 for what is no direction, for which a driver may read anywhere.
+vec4 radialPoint(vec3 u) {
+  if (any(isnan(u)) || any(isinf(u)) || u == vec3(0.0)) return vec4(0.0);
+  return textureLod(reflectorMap, mapPlace(u), 0.0);
+}
 
 // Whether an open mirror, seen from within, lies between its point and a vertex: where the segment leaves the surface
 // continued, is there surface?
