@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Share of rays over the hemisphere of each pixel's point, by the cosine, that hit nothing within the radius.
 #include "renderer/techniques/ambient_occlusion/occlusion_bindings.h"
+#include "renderer/ray_tracing/random_place.glsl"
 #include "renderer/ray_tracing/trace.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
@@ -15,19 +16,6 @@ uniform float radius;
 uniform vec3 eyePosition;  // relative to the anchor
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
-
-// The hash "pcg3d" (Jarzynski and Olano 2020), in [0, 1).
-vec2 randomPlace(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  return vec2(v.xy >> 8u) / 16777216.0;
-}
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

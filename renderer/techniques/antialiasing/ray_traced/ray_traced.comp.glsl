@@ -11,22 +11,10 @@ uniform int first;  // row of cells of this pass
 uniform uint seed;
 uniform vec3 eyePosition;  // relative to the anchor
 #include "renderer/techniques/antialiasing/surface_colour.glsl"
+#include "renderer/ray_tracing/random_place.glsl"
 #include "renderer/ray_tracing/trace.glsl"
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
-
-// The hash "pcg3d" (Jarzynski and Olano 2020), in [0, 1).
-vec2 randomPlace(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  return vec2(v.xy >> 8u) / 16777216.0;
-}
 
 vec3 rayColour(vec2 place) {
   const vec3 direction = normalize(mat3(cameraToAnchor) * placeRay(place, rayScale, sizePx));
