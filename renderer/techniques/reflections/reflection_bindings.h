@@ -22,7 +22,7 @@ const uint kComposeImage = 1u;
 
 // Views of mirrors and reflectors (ViewRaster).
 const uint kViewGroupsBuffer = 6u;
-const uint kViewMaskUnit = 0u;
+const uint kViewImageUnit = 0u;  // mask, or depth to draw behind
 
 // Planar mirrors: the ray of each pixel between two bounces.
 const uint kPlanarOriginImage = 1u;

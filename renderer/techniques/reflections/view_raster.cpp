@@ -9,13 +9,25 @@
 #include "renderer/techniques/reflections/reflection_bindings.h"
 
 namespace limen::techniques {
+namespace {
+
+gl::ShaderDefines viewDefines(bool masked, ViewRaster::Shown shown) {
+  using Shown = ViewRaster::Shown;
+  gl::ShaderDefines defines;
+  if (masked) defines["MASKED"] = "1";
+  if (shown == Shown::BackFaces) defines["BACK_FACES"] = "1";
+  if (shown == Shown::BehindDepth || shown == Shown::FrontsBehindDepth) defines["BEHIND_DEPTH"] = "1";
+  if (shown == Shown::FrontsBehindDepth) defines["FRONT_FACES"] = "1";
+  return defines;
+}
+
+}  // namespace
 
 ViewRaster::ViewRaster(frame::Frame& frame, glm::ivec2 sizePx, const std::vector<uint32_t>& groups,
-                       bool masked)
-    : program_(
-          frame.context().programs().get({"renderer/techniques/reflections/view_raster.vert.glsl",
-                                          "renderer/techniques/reflections/view_raster.frag.glsl"},
-                                         masked ? gl::ShaderDefines{{"MASKED", "1"}} : gl::ShaderDefines{})),
+                       bool masked, Shown shown)
+    : program_(frame.context().programs().get({"renderer/techniques/reflections/view_raster.vert.glsl",
+                                               "renderer/techniques/reflections/view_raster.frag.glsl"},
+                                              viewDefines(masked, shown))),
       ids_(gl::Format::R32UI, sizePx),
       depth_(gl::Format::Depth32F, sizePx),
       framebuffer_({&ids_}, &depth_),
@@ -30,7 +42,7 @@ void ViewRaster::clear() const {
 }
 
 void ViewRaster::draw(const frame::Frame& frame, const glm::mat4& anchorToClip, glm::vec4 clipPlane,
-                      uint32_t leftOut, const gl::Texture* mask, uint32_t wanted) const {
+                      uint32_t leftOut, const gl::Texture* image, uint32_t wanted) const {
   framebuffer_.bind();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
@@ -42,7 +54,7 @@ void ViewRaster::draw(const frame::Frame& frame, const glm::mat4& anchorToClip, 
   program_.set("leftOut", leftOut);
   program_.set("wanted", wanted);
   groups_.bindStorage(kViewGroupsBuffer);
-  if (mask) mask->bindTexture(kViewMaskUnit);
+  if (image) image->bindTexture(kViewImageUnit);
   frame.geometry().draw();
   glDisable(GL_CLIP_DISTANCE0);
   glDisable(GL_DEPTH_TEST);

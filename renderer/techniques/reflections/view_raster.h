@@ -13,16 +13,26 @@ namespace limen::techniques {
 class ViewRaster {
  public:
   static constexpr uint32_t kNoGroup = 0xffffffffU;
+  enum class Shown {
+    Nearest,
+    BackFaces,         ///< the nearest triangle that turns its back to the view, by its winding
+    BehindDepth,       ///< the nearest behind a depth
+    FrontsBehindDepth  ///< of those that turn their front to the view
+  };
   /// `groups`: a number for each of the scene's triangles; draw() can leave out those of one number.
   /// `masked`: draw() draws only where a mask has a certain value.
-  ViewRaster(frame::Frame& frame, glm::ivec2 sizePx, const std::vector<uint32_t>& groups, bool masked);
+  ViewRaster(frame::Frame& frame, glm::ivec2 sizePx, const std::vector<uint32_t>& groups, bool masked,
+             Shown shown = Shown::Nearest);
 
   void clear() const;
-  /// Draws the part of the scene where dot(clipPlane, (position, 1)) >= 0, relative to the anchor.
+  /// Draws the part of the scene where dot(clipPlane, (position, 1)) >= 0, relative to the anchor. `image`:
+  /// of a masked view the mask, R32UI; behind a depth that depth, reversed, as depth() has it.
   void draw(const frame::Frame& frame, const glm::mat4& anchorToClip, glm::vec4 clipPlane, uint32_t leftOut,
-            const gl::Texture* mask = nullptr, uint32_t wanted = 0) const;
+            const gl::Texture* image = nullptr, uint32_t wanted = 0) const;
   /// R32UI; frame::TriangleIds::kNone: nothing.
   const gl::Texture& ids() const { return ids_; }
+  /// Depth32F: near / distance, 0: nothing.
+  const gl::Texture& depth() const { return depth_; }
   const gl::Buffer& groups() const { return groups_; }
   int64_t bytes() const { return ids_.bytes() + depth_.bytes() + groups_.bytes(); }
 

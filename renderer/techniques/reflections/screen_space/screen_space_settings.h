@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+
+#include "renderer/frame/shaded.h"
+
+namespace limen::techniques {
+
+/// Ways through the picture's depths.
+struct HierarchicalMarch {
+  static constexpr const char *kKind = "hierarchical",
+                              *kSummary = "from cell to cell of a pyramid of nearest depths";
+  int coarsest = 6;
+  static const SettingsTable<HierarchicalMarch>& table();
+};
+struct LinearMarch {
+  static constexpr const char *kKind = "linear", *kSummary = "in steps of some pixels";
+  double stridePx = 1.0, jitter = 0.0;
+  int refinements = 4;
+  int64_t seed = 1;
+  static const SettingsTable<LinearMarch>& table();
+};
+
+/// How far a surface of the picture reaches behind what is seen of it.
+struct ConstantThickness {
+  static constexpr const char *kKind = "constant", *kSummary = "the same for all";
+  double depth = 0.02;
+  static const SettingsTable<ConstantThickness>& table();
+};
+struct BackFaceThickness {
+  static constexpr const char *kKind = "back_faces", *kSummary = "up to the nearest back face";
+  double least = 0.002;
+  static const SettingsTable<BackFaceThickness>& table();
+};
+struct SecondLayerThickness {
+  static constexpr const char *kKind = "second_layer",
+                              *kSummary =
+                                  "the same for two layers of surfaces, the second peeled off the first";
+  double depth = 0.02;
+  static const SettingsTable<SecondLayerThickness>& table();
+};
+
+/// Whose light a ray brings that meets what a pixel shows.
+enum class ScreenLight { Picture, Triangle };
+constexpr EnumNames<ScreenLight, 2> enumNames(ScreenLight) {
+  return {{{{ScreenLight::Picture, "picture"}, {ScreenLight::Triangle, "triangle"}}}};
+}
+
+/// What pixels show whose ray the picture does not answer.
+struct BackgroundFallback {
+  static constexpr const char *kKind = "background", *kSummary = "the background";
+  static const SettingsTable<BackgroundFallback>& table();
+};
+struct NoFallback {
+  static constexpr const char *kKind = "none", *kSummary = "nothing: black";
+  static const SettingsTable<NoFallback>& table();
+};
+
+struct ScreenSpaceSettings {
+  std::variant<HierarchicalMarch, LinearMarch> march;
+  int steps = 1024;
+  std::variant<ConstantThickness, BackFaceThickness, SecondLayerThickness> thickness;
+  ScreenLight light = ScreenLight::Picture;
+  double fade = 0.05;
+  std::variant<BackgroundFallback, NoFallback> fallback;
+  frame::ShadedSetting shading;
+  static const SettingsTable<ScreenSpaceSettings>& table();
+};
+
+}  // namespace limen::techniques
