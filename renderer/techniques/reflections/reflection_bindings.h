@@ -34,10 +34,13 @@ const uint kPlanarChainImage = 4u;
 const uint kEnvironmentIdsUnit = 0u;
 const uint kEnvironmentCubeUnit = 3u;
 const uint kEnvironmentFacesUnit = 4u;
+const uint kEnvironmentSecondCubeUnit = 5u;
+const uint kEnvironmentSecondFacesUnit = 6u;
+const uint kEnvironmentMapFacesUnit = 7u;
 const uint kEnvironmentFateImage = 1u;
 const uint kEnvironmentNoRay = 0u;
 const uint kEnvironmentMet = 1u;
-const uint kEnvironmentMetBehindCrack = 2u;  // and slipped behind a border before
+const uint kEnvironmentMetBehindCrack = 2u;  // and slipped behind a border of the last layer before
 const uint kEnvironmentCrack = 3u;           // met nothing after that
 const uint kEnvironmentMissed = 4u;
 

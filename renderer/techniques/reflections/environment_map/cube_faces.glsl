@@ -12,6 +12,9 @@ vec3 cubeDirection(int face, vec2 at, int resolution) {
   return vec3(-p.x, -p.y, -1.0);
 }
 
+// False for what leads nowhere.
+bool isDirection(vec3 d) { return !any(isnan(d)) && !any(isinf(d)) && d != vec3(0.0); }
+
 // Texel and face in a direction.
 ivec3 cubeTexel(vec3 d, int resolution) {
   const vec3 size = abs(d);

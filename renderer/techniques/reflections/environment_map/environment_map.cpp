@@ -4,306 +4,58 @@
 // the mirrored ray is followed. The mirror itself is left out of the map, and mirrors in it show their own
 // light alone. All mirrors of the scene use the one map. Optionally filtered beforehand for diffuse or glossy
 // surfaces; the mean of the light, so that the mirror's share alone decides how bright it is.
-#include <epoxy/gl.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
-#include "renderer/frame/g_buffer.h"
-#include "renderer/frame/mirror_rays.h"
-#include "renderer/frame/surface_point.h"
-#include "renderer/techniques/reflections/environment_map/cube_map.h"
-#include "renderer/techniques/reflections/reflection_bindings.h"
+#include "renderer/techniques/reflections/environment_map/environment_light.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
-#include "renderer/techniques/reflections/view_raster.h"
-#include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kMapPass = "reflections/environment_map", *kLookPass = "reflections/environment_lookup",
-                     *kPrefilterPass = "reflections/prefilter";
-
-struct InfiniteMap {
-  static constexpr const char *kKind = "infinite", *kSummary = "by direction alone";
-  static const SettingsTable<InfiniteMap>& table() {
-    static const SettingsTable<InfiniteMap> kTable = {};
-    return kTable;
-  }
-};
-struct FiniteMap {
-  static constexpr const char *kKind = "finite", *kSummary = "on a sphere around the mirror's middle";
-  double radius = 0.25;
-  static const SettingsTable<FiniteMap>& table() {
-    static const SettingsTable<FiniteMap> kTable = {{&FiniteMap::radius,
-                                                     "radius",
-                                                     {1e-3, 100.0},
-                                                     "scene diagonals",
-                                                     "Radius of the sphere",
-                                                     "Roger 2008, section 1.3.2.1 (1 world unit there)"}};
-    return kTable;
-  }
-};
-struct DepthMap {
-  static constexpr const char *kKind = "depth",
-                              *kSummary = "at the distance of each texel, found along the ray";
-  int steps = 32, refinements = 10;
-  double crackShare = 0.02;
-  static const SettingsTable<DepthMap>& table() {
-    using S = DepthMap;
-    static const SettingsTable<S> kTable = {
-        {&S::steps, "steps", {1, 1024}, "", "Places along the ray", "Roger 2008, section 1.3.2.2"},
-        {&S::refinements, "refinements", {0, 32}, "", "Halvings of the step that enters a surface"},
-        {&S::crackShare,
-         "crack",
-         {1e-6, 1.0},
-         "",
-         "Depth behind a surface, as a share of its distance, beyond which the ray slipped past its border"}};
-    return kTable;
-  }
-};
-
-enum class MapFilter { Nearest, Linear, Mip };
-constexpr EnumNames<MapFilter, 3> enumNames(MapFilter) {
-  return {{{{MapFilter::Nearest, "nearest"}, {MapFilter::Linear, "linear"}, {MapFilter::Mip, "mip"}}}};
-}
-
-struct NotPrefiltered {
-  static constexpr const char *kKind = "none", *kSummary = "as it is seen";
-  static const SettingsTable<NotPrefiltered>& table() {
-    static const SettingsTable<NotPrefiltered> kTable = {};
-    return kTable;
-  }
-};
-struct PrefilteredLobe {
-  static constexpr const char *kKind = "lobe",
-                              *kSummary = "mean over a power of the cosine; 1 is that of diffuse surfaces";
-  double exponent = 20.0;
-  int resolution = 32, source = 32;
-  static const SettingsTable<PrefilteredLobe>& table() {
-    using S = PrefilteredLobe;
-    static const SettingsTable<S> kTable = {
-        {&S::exponent, "exponent", {1.0, 1000.0}, "", "Of the cosine", "Roger 2008, section 1.3.2.3"},
-        {&S::resolution, "resolution", {4, 256}, "texels", "Side of a face of the filtered map"},
-        {&S::source, "source_resolution", oneOf({8, 16, 32, 64, 128}), "texels",
-         "Side of a face of the level that is filtered"}};
-    return kTable;
-  }
-};
-
 struct EnvironmentMapSettings {
-  int resolution = 256;
-  std::variant<InfiniteMap, FiniteMap, DepthMap> lookup;
-  MapFilter filter = MapFilter::Linear;
-  std::variant<NotPrefiltered, PrefilteredLobe> prefilter;
+  EnvironmentLightSettings map;
   frame::ShadedSetting shading;
   static const SettingsTable<EnvironmentMapSettings>& table() {
     using S = EnvironmentMapSettings;
-    static const SettingsTable<S> kTable = {
-        {&S::resolution, "resolution", oneOf({16, 32, 64, 128, 256, 512, 1024, 2048}), "texels",
-         "Side of a face", "Roger 2008, section 1.3.2"},
-        {&S::lookup, "lookup", "Where the map's surroundings are"},
-        {&S::filter, "filter", "Nearest texel, four texels, or mip levels by the angle between pixels' rays"},
-        {&S::prefilter, "prefilter", "Filters the map for surfaces that are no perfect mirrors"},
-        shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {included(&S::map), shadingBinding(&S::shading)};
     return kTable;
   }
-  void check() const {
-    const auto* lobe = std::get_if<PrefilteredLobe>(&prefilter);
-    if (lobe && lobe->source > resolution)
-      throw Error("the filtered level would have more texels than the map", "prefilter.source_resolution",
-                  "give at most " + std::to_string(resolution));
-  }
 };
-
-/// The mirror with the largest surface: its part, and the middle of its box relative to the anchor.
-struct MapReflector {
-  uint32_t part = ViewRaster::kNoGroup;
-  glm::dvec3 middle{0.0};
-};
-
-MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor) {
-  MapReflector best;
-  double most = -1.0;
-  for (size_t p = 0; p < scene.parts.size(); ++p) {
-    const scene::Part& part = scene.parts[p];
-    if (!scene.materials[part.material].reflects()) continue;
-    double area = 0.0;
-    scene::Bounds bounds;
-    for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t) {
-      const glm::uvec3 of = scene.mesh.triangles[t];
-      const glm::dvec3 a = scene.mesh.positions[of.x], b = scene.mesh.positions[of.y],
-                       c = scene.mesh.positions[of.z];
-      const double twice = glm::length(glm::cross(b - a, c - a));
-      if (!std::isfinite(twice)) continue;
-      area += 0.5 * twice;
-      for (const glm::dvec3& corner : {a, b, c}) bounds.extend(corner - anchor);
-    }
-    if (area > most && !bounds.empty()) {
-      most = area;
-      best = {static_cast<uint32_t>(p), bounds.centre()};
-    }
-  }
-  return best;
-}
 
 class EnvironmentMap : public Technique {
  public:
   using Settings = EnvironmentMapSettings;
-  explicit EnvironmentMap(const Settings& settings) : settings_(settings), picture_(settings.shading) {}
+  explicit EnvironmentMap(const Settings& settings)
+      : light_(settings.map, settings.shading, false), picture_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
-    const scene::Scene& scene = frame.scene();
-    reflector_ = largestMapReflector(scene, frame.gpuScene().anchor());
-    std::vector<uint32_t> partOf(scene.mesh.triangles.size());
-    for (size_t p = 0; p < scene.parts.size(); ++p)
-      std::fill_n(partOf.begin() + scene.parts[p].firstTriangle, scene.parts[p].triangleCount, uint32_t(p));
-    raster_.emplace(frame, glm::ivec2(settings_.resolution), partOf, false);
-    const auto* lobe = std::get_if<PrefilteredLobe>(&settings_.prefilter);
-    map_.emplace(settings_.resolution, settings_.filter == MapFilter::Mip || lobe);
-    if (lobe) filtered_.emplace(lobe->resolution, false);
-    gl::ShaderDefines defines = frame::shadingDefines(settings_.shading, frame);
-    defines.erase("SHADOW");
-    auto& programs = frame.context().programs();
-    const std::string folder = "renderer/techniques/reflections/environment_map/";
-    face_ = &programs.compute(folder + "environment_face.comp.glsl", defines);
-    prefilter_ = &programs.compute(folder + "prefilter.comp.glsl", {});
-    gl::ShaderDefines look;
-    defineEnum(look, "FILTER", settings_.filter);
-    if (std::holds_alternative<FiniteMap>(settings_.lookup)) look["FINITE"] = "1";
-    if (std::holds_alternative<DepthMap>(settings_.lookup)) look["DEPTH"] = "1";
-    look_ = &programs.compute(folder + "environment_look.comp.glsl", look);
-    look["COUNT"] = "1";
-    countLook_ = &programs.compute(folder + "environment_look.comp.glsl", look);
+    light_.prepare(frame);
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    fates_.emplace(gl::Format::R32UI, frame.sizePx());
-    frame.passes().setBytesHeld(kMapPass,
-                                raster_->bytes() + map_->bytes() + (filtered_ ? filtered_->bytes() : 0));
-    frame.passes().setBytesHeld(kLookPass, reflected_->bytes());
+    frame.passes().setBytesHeld("reflections/environment_lookup", reflected_->bytes());
     picture_.prepare(frame);
   }
 
   void render(frame::Frame& frame) override {
-    {
-      const auto scope = frame.passes().open(kMapPass);
-      for (int face = 0; face < 6; ++face) drawFace(frame, face);
-      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-      map_->makeLevels();
-    }
-    if (const auto* lobe = std::get_if<PrefilteredLobe>(&settings_.prefilter)) {
-      const auto scope = frame.passes().open(kPrefilterPass);
-      prefilter(*lobe);
-    }
-    const frame::MirrorRays& rays = frame.get<frame::MirrorRays>();
-    {
-      const auto scope = frame.passes().open(kLookPass);
-      look(frame, rays, *look_);
-    }
+    light_.draw(frame);
+    light_.look(frame, frame.get<frame::MirrorRays>(), *reflected_);
     picture_.compose(frame, *reflected_);
   }
 
   const gl::Texture& product() const override { return picture_.texture(); }
-
-  std::vector<Counter> count(frame::Frame& frame) override {
-    look(frame, frame.get<frame::MirrorRays>(), *countLook_);
-    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    double rays = 0.0, cracks = 0.0, missed = 0.0;
-    for (const uint32_t fate : fates_->readUint()) {
-      rays += fate != kEnvironmentNoRay;
-      cracks += fate == kEnvironmentCrack || fate == kEnvironmentMetBehindCrack;
-      missed += fate == kEnvironmentMissed || fate == kEnvironmentCrack;
-    }
-    return {{"mirror_px", rays},
-            {"crack_px", cracks},
-            {"missed_px", missed},
-            {"triangles_drawn", 6.0 * frame.gpuScene().triangleCount()}};
-  }
+  std::vector<Counter> count(frame::Frame& frame) override { return light_.count(frame, *reflected_); }
 
  private:
-  void drawFace(frame::Frame& frame, int face) {
-    const CubeFace of = cubeFace(face);
-    glm::dmat4 clip(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-      clip[axis][0] = of.right[axis];
-      clip[axis][1] = -of.down[axis];
-      clip[axis][3] = of.forward[axis];
-    }
-    clip[3] = -(clip * glm::dvec4(reflector_.middle, 0.0));
-    clip[3][2] = frame::nearPlane(frame);
-    raster_->clear();
-    raster_->draw(frame, glm::mat4(clip), glm::vec4(0.0F, 0.0F, 0.0F, 1.0F), reflector_.part);
-    frame::configureShading(*face_, frame, settings_.shading);
-    face_->set("sizePx", glm::ivec2(settings_.resolution));
-    face_->set("face", face);
-    face_->set("centre", glm::vec3(reflector_.middle));
-    face_->set("flatShading", settings_.shading.smoothNormals ? 0 : 1);
-    raster_->ids().bindTexture(kEnvironmentIdsUnit);
-    map_->faces().bindImage(kReflectionImage, gl::Access::Write);
-    face_->dispatch(glm::ivec2(settings_.resolution));
-  }
-
-  void prefilter(const PrefilteredLobe& lobe) {
-    int level = 0;
-    while (settings_.resolution >> level > lobe.source) ++level;
-    map_->faces().bindTexture(kEnvironmentFacesUnit);
-    filtered_->faces().bindImage(kReflectionImage, gl::Access::Write);
-    prefilter_->set("sourceLevel", level);
-    prefilter_->set("sourceResolution", settings_.resolution >> level);
-    prefilter_->set("resolution", lobe.resolution);
-    prefilter_->set("exponent", static_cast<float>(lobe.exponent));
-    for (int face = 0; face < 6; ++face) {
-      prefilter_->set("face", face);
-      prefilter_->dispatch(glm::ivec2(lobe.resolution));
-    }
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  }
-
-  void look(frame::Frame& frame, const frame::MirrorRays& rays, const gl::Program& program) {
-    const CubeMap& map = filtered_ ? *filtered_ : *map_;
-    program.set("sizePx", frame.sizePx());
-    program.set("resolution", map.resolution());
-    program.set("centre", glm::vec3(reflector_.middle));
-    const double diagonal = frame.gpuScene().diagonal();
-    if (const auto* finite = std::get_if<FiniteMap>(&settings_.lookup))
-      program.set("radius", static_cast<float>(finite->radius * diagonal));
-    if (const auto* depth = std::get_if<DepthMap>(&settings_.lookup)) {
-      program.set("steps", depth->steps);
-      program.set("refinements", depth->refinements);
-      program.set("crackShare", static_cast<float>(depth->crackShare));
-      program.set("reach", static_cast<float>(0.1 * diagonal));
-    }
-    rays.origins().bindTexture(kReflectionOriginsUnit);
-    rays.directions().bindTexture(kReflectionDirectionsUnit);
-    map.bindCube(kEnvironmentCubeUnit);
-    map_->faces().bindTexture(kEnvironmentFacesUnit);
-    reflected_->bindImage(kReflectionImage, gl::Access::Write);
-    fates_->bindImage(kEnvironmentFateImage, gl::Access::Write);
-    program.dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  }
-
-  EnvironmentMapSettings settings_;
+  EnvironmentLight light_;
   ReflectionPicture picture_;
-  MapReflector reflector_;
-  const gl::Program *face_ = nullptr, *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
-  std::optional<ViewRaster> raster_;
-  std::optional<CubeMap> map_, filtered_;
-  std::optional<gl::Texture> reflected_, fates_;
+  std::optional<gl::Texture> reflected_;
 };
 
 const RegisteredTechnique<EnvironmentMap> kEnvironmentMapRegistered{
     {.name = "reflections/environment_map",
-     .version = 1,
+     .version = 2,
      .summary = "Mirrors that look their light up in a cube map of their surroundings, drawn each frame",
      .source = "Roger 2008, sections 1.3.2 and 5.1 (R-54 to R-58)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
-     .counters = {
-         {"mirror_px", "Pixels that see a mirror", "px", Direction::Neither},
-         {"crack_px", "Pixels whose ray slips behind a border in the map", "px", Direction::LowerIsBetter},
-         {"missed_px", "Pixels whose ray meets nothing in the map", "px", Direction::LowerIsBetter},
-         {"triangles_drawn", "Triangles drawn into the map", "", Direction::LowerIsBetter}}}};
+     .counters = EnvironmentLight::counters()}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -40,7 +40,10 @@ class ScreenSpaceReflections : public Technique {
  public:
   using Settings = ScreenSpaceSettings;
   explicit ScreenSpaceReflections(const Settings& settings)
-      : settings_(settings), picture_(settings.shading) {}
+      : settings_(settings), picture_(settings.shading) {
+    if (const auto* environment = std::get_if<EnvironmentFallback>(&settings.fallback))
+      environment_.emplace(environment->map, settings.shading, true);
+  }
 
   void prepare(frame::Frame& frame) override {
     auto& programs = frame.context().programs();
@@ -59,6 +62,7 @@ class ScreenSpaceReflections : public Technique {
                       false, second ? ViewRaster::Shown::BehindDepth : ViewRaster::Shown::BackFaces);
       frame.passes().setBytesHeld(kBehindPass, behind_->bytes());
     }
+    if (environment_) environment_->prepare(frame);
     const gl::ShaderDefines defines = marchDefines(frame);
     march_ = &programs.compute(folder + "screen_march.comp.glsl", defines);
     gl::ShaderDefines counting = defines;
@@ -87,6 +91,10 @@ class ScreenSpaceReflections : public Technique {
     {
       const auto scope = frame.passes().open(kMarchPass);
       march(frame, *march_, rays, ids, local);
+    }
+    if (environment_) {
+      environment_->draw(frame);
+      environment_->look(frame, rays, *reflected_);
     }
     picture_.compose(frame, *reflected_);
   }
@@ -181,6 +189,7 @@ class ScreenSpaceReflections : public Technique {
 
   ScreenSpaceSettings settings_;
   ReflectionPicture picture_;
+  std::optional<EnvironmentLight> environment_;
   const gl::Program *buildPyramid_ = nullptr, *march_ = nullptr, *countMarch_ = nullptr;
   std::optional<ViewRaster> behind_;
   std::optional<gl::Texture> pyramid_, reflected_, fates_;

@@ -77,6 +77,11 @@ const SettingsTable<NoFallback>& NoFallback::table() {
   return kTable;
 }
 
+const SettingsTable<EnvironmentFallback>& EnvironmentFallback::table() {
+  static const SettingsTable<EnvironmentFallback> kTable = {included(&EnvironmentFallback::map)};
+  return kTable;
+}
+
 const SettingsTable<ScreenSpaceSettings>& ScreenSpaceSettings::table() {
   using S = ScreenSpaceSettings;
   static const SettingsTable<S> kTable = {

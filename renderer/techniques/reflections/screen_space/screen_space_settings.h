@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/reflections/environment_map/environment_light.h"
 
 namespace limen::techniques {
 
@@ -56,6 +57,12 @@ struct NoFallback {
   static constexpr const char *kKind = "none", *kSummary = "nothing: black";
   static const SettingsTable<NoFallback>& table();
 };
+struct EnvironmentFallback {
+  static constexpr const char *kKind = "environment_map",
+                              *kSummary = "a map of the surroundings, drawn each frame";
+  EnvironmentLightSettings map;
+  static const SettingsTable<EnvironmentFallback>& table();
+};
 
 struct ScreenSpaceSettings {
   std::variant<HierarchicalMarch, LinearMarch> march;
@@ -63,7 +70,7 @@ struct ScreenSpaceSettings {
   std::variant<ConstantThickness, BackFaceThickness, SecondLayerThickness> thickness;
   ScreenLight light = ScreenLight::Picture;
   double fade = 0.05;
-  std::variant<BackgroundFallback, NoFallback> fallback;
+  std::variant<BackgroundFallback, NoFallback, EnvironmentFallback> fallback;
   frame::ShadedSetting shading;
   static const SettingsTable<ScreenSpaceSettings>& table();
 };

@@ -17,7 +17,10 @@ void main() {
   if (id < reflectorFirst || id - reflectorFirst >= reflectorCount) return;
   const vec4 near = imageLoad(reflected, pixel);
   if (near.a >= 1.0) return;
-  const vec4 far = textureLod(environment, texelFetch(directions, pixel, 0).xyz, 0.0);
+  const vec3 direction = texelFetch(directions, pixel, 0).xyz;
+  // No direction: a driver may read anywhere.
+  if (any(isnan(direction)) || any(isinf(direction)) || direction == vec3(0.0)) return;
+  const vec4 far = textureLod(environment, direction, 0.0);
   // Both are multiplied by their alpha.
   imageStore(reflected, pixel, near + (1.0 - near.a) * far);
 }

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "renderer/frame/shaded.h"
-#include "tests/renderer/reflections/reflection_fixture.h"
+#include "tests/renderer/techniques/reflections/reflection_fixture.h"
 
 namespace limen::techniques {
 namespace {

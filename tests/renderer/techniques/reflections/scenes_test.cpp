@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/renderer/reflections/reflection_fixture.h"
 #include "tests/renderer/scene/scene_fixtures.h"
+#include "tests/renderer/techniques/reflections/reflection_fixture.h"
 
 namespace limen::techniques {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/renderer/reflections/reflection_fixture.h"
+#include "tests/renderer/techniques/reflections/reflection_fixture.h"
 
 namespace limen::techniques {
 namespace {
@@ -120,6 +120,44 @@ TEST_F(EnvironmentMaps, CracksAreCounted) {
   const Rendered empty = render(ballInSphere(0.1), "reflections/environment_map",
                                 plain({{"lookup", std::string("depth")}}), {96, 72}, true);
   EXPECT_EQ(empty.counter("crack_px"), 0.0);
+}
+
+/// What lies behind an object's border is known to the second layer: fewer rays slip behind both, and the
+/// picture is nearer to the truth. Where nothing lies behind anything the second layer changes nothing.
+TEST_F(EnvironmentMaps, ASecondLayerClosesCracks) {
+  const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{24}}});
+  const Image truth = render(scene, "reflections/reference", {}, {96, 72}).product;
+  const auto of = [&](const scene::Scene& in, int layers, Given more) {
+    more["lookup"] = std::string("depth");
+    more["lookup.layers"] = int64_t{layers};
+    return render(in, "reflections/environment_map", more, {96, 72}, true);
+  };
+  const Rendered one = of(scene, 1, {{"resolution", int64_t{512}}}),
+                 two = of(scene, 2, {{"resolution", int64_t{512}}});
+  EXPECT_LT(two.counter("crack_px"), 0.5 * one.counter("crack_px"));
+  EXPECT_LT(meanDifference(two.product, truth), meanDifference(one.product, truth));
+  const scene::Scene convex = ballInSphere(0.1);
+  EXPECT_EQ(differing(of(convex, 2, plain()).product, of(convex, 1, plain()).product, 0.0).count, 0U);
+}
+
+/// A map of one colour stays so, filtered beforehand and looked up in any way: it is the filtered map that is
+/// looked up, and the unfiltered one that has the distances.
+TEST_F(EnvironmentMaps, FilteredMapsAreLookedUpInAnyWay) {
+  scene::Scene scene = ballInSphere(0.1);
+  for (scene::Material& material : scene.materials)
+    if (!material.reflects()) material.albedo = glm::vec3(0.5F);
+  for (const char* lookup : {"infinite", "depth"})
+    for (const char* filter : {"nearest", "linear"}) {
+      const Image found = render(scene, "reflections/environment_map",
+                                 plain({{"prefilter", std::string("lobe")},
+                                        {"prefilter.resolution", int64_t{8}},
+                                        {"lookup", std::string(lookup)},
+                                        {"filter", std::string(filter)}}),
+                                 {61, 61})
+                              .product;
+      // Sums of 6 * 32^2 weights in float.
+      EXPECT_NEAR(found.at(30, 30, 0), 0.5, 1e-4) << lookup << ' ' << filter;
+    }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/scene/shapes.h"
 #include "tests/renderer/frame/brute_force.h"
-#include "tests/renderer/reflections/reflection_fixture.h"
+#include "tests/renderer/techniques/reflections/reflection_fixture.h"
 
 namespace limen::techniques {
 namespace {
