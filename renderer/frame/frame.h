@@ -80,6 +80,8 @@ class Frame {
   void setLevels(const scene::LodSelection& selection);
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// The vertices' positions of this frame.
+  const gl::Buffer& positions() const { return positions_ ? *positions_ : gpuScene_.positions(); }
   /// Fills the G-buffer from chosen positions instead of rasterising. Call it before the first get(); the
   /// textures must hold what is seen when an input is made, and outlive this frame.
   void setSeen(const Seen& seen) { seen_ = seen; }
