@@ -49,7 +49,7 @@ class GpuScene {
   /// Made on first use.
   const SurfaceBuffers& surface() const;
   /// The finest scene's triangles, for tracing rays. Made on first use, then kept. Throws Error if the device
-  /// cannot hold it.
+  /// cannot hold it, or parts of the scene move.
   const ray_tracing::RayScene& rays(gl::Context& context) const;
 
  private:

@@ -22,7 +22,7 @@ void ReflectionPicture::compose(frame::Frame& frame, const gl::Texture& reflecte
   const auto scope = frame.passes().open("reflections/compose");
   program_->set("sizePx", frame.sizePx());
   program_->set("background", glm::vec3(static_cast<float>(shading_.background)));
-  frame.gpuScene().surface().bindStorage();
+  frame.bindSurfaces();
   rays.directions().bindTexture(kReflectionDirectionsUnit);
   rays.origins().bindTexture(kReflectionOriginsUnit);
   ids.bindTexture(kReflectionIdsUnit);

@@ -135,27 +135,27 @@ TEST_F(Rebuilt, EqualCodesAreToldApart) {
   }
 }
 
-/// Triangles ever nearer to a corner, so that each bit of the codes parts few from all others; about each,
-/// larger ones that are opened first. Opened by surface alone such a tree has more levels than the stack
-/// holds.
+/// Triangles ever nearer to a corner: each bit of the codes parts 64 of them, all alike, from those that
+/// follow, whose box is smaller than that of any of the 64. Opened by surface alone, each node of the wide
+/// tree would spend its eight children on the 64, and there would be a level for each of 42 bits. Coordinates
+/// have 20 bits, so that centres are exact.
 TEST_F(Rebuilt, ALopsidedTreeFitsTheStack) {
   Soup soup;
-  Dice dice(41);
-  for (int level = 0; level < 20; ++level)
+  for (int level = 0; level < 14; ++level)
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 at(0.0);
       at[axis] = std::ldexp(1.0, -level);
-      for (int i = 0; i < 40; ++i) {
-        // The centre of the box decides the code.
-        const glm::dvec3 half = glm::abs(dice.inCube(0.4));
-        soup.add(at - half, at + half, at + half * glm::dvec3(-1.0, 1.0, 0.3));
-      }
+      const double half = std::ldexp(axis == 0 ? 1.0 : axis == 1 ? 0.625 : 0.40625, 15 - 2 * level);
+      for (int i = 0; i < 64; ++i)
+        soup.add(at - half, at + half, at + half * glm::dvec3(1.0, i % 2 == 0 ? 1.0 : -1.0, -1.0));
     }
+  std::vector<BatchRay> rays = raysThrough(42, 2000);
+  for (BatchRay& ray : rays) ray.origin *= 100.0F, ray.direction *= 100.0F;
   for (const int bits : {10, 16, 21}) {
     const RebuiltTree tree = built(soup, bits);
     EXPECT_LE(tree.counts().levels, kRayStack);
-    EXPECT_GE(tree.counts().levels, 1000) << "the case is not lopsided";
-    expectAsOnTheCpu(tree, soup, raysThrough(42, 2000), "lopsided");
+    EXPECT_GE(tree.counts().levels, bits == 10 ? 20 : 30) << "the case is not lopsided";
+    expectAsOnTheCpu(tree, soup, rays, "lopsided");
   }
 }
 

@@ -234,6 +234,7 @@ const RegisteredTechnique<RayHierarchyReflections> kRayHierarchyRegistered{
      .source = "Roger 2008, chapter 3 (R-13 to R-26)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = RayHierarchyReflections::quantities()}};
 
 }  // namespace

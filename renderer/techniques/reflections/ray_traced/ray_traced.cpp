@@ -31,23 +31,25 @@ struct KeptTree {
     return kTable;
   }
 };
-/// What both trees that the GPU builds have.
-template <class Kind>
-struct DeviceTree {
+constexpr const char* kCodeBitsText = "Of the Morton codes by which triangles are sorted";
+struct TreeOfFrame {
+  static constexpr const char *kKind = "rebuilt", *kSummary = "built by the GPU in every frame";
   int codeBits = 48;
-  static const SettingsTable<Kind>& table() {
-    static const SettingsTable<Kind> kTable = {{&Kind::codeBits, "code_bits", oneOf({30, 48, 63}), "bits",
-                                                "Of the Morton codes by which triangles are sorted",
-                                                "Karras 2012"}};
+  static const SettingsTable<TreeOfFrame>& table() {
+    static const SettingsTable<TreeOfFrame> kTable = {
+        {&TreeOfFrame::codeBits, "code_bits", oneOf({30, 48, 63}), "bits", kCodeBitsText, "Karras 2012"}};
     return kTable;
   }
 };
-struct TreeOfFrame : DeviceTree<TreeOfFrame> {
-  static constexpr const char *kKind = "rebuilt", *kSummary = "built by the GPU in every frame";
-};
-struct RefittedTree : DeviceTree<RefittedTree> {
+struct RefittedTree {
   static constexpr const char *kKind = "refitted",
                               *kSummary = "shape built by the GPU in the first frame, boxes in every frame";
+  int codeBits = 48;
+  static const SettingsTable<RefittedTree>& table() {
+    static const SettingsTable<RefittedTree> kTable = {
+        {&RefittedTree::codeBits, "code_bits", oneOf({30, 48, 63}), "bits", kCodeBitsText, "Karras 2012"}};
+    return kTable;
+  }
 };
 using MirrorTree = std::variant<KeptTree, TreeOfFrame, RefittedTree>;
 
@@ -149,6 +151,7 @@ const RegisteredTechnique<RayTracedReflections> kRegistered{
      .source = "Roger 2008, sections 1.2.2 and 3.1 (R-59)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = {
          {"tree_build_ms", "Time to build the tree, once, on the CPU", "ms", Direction::LowerIsBetter},
          {"tree_nodes", "Nodes of the tree, eight children each at most", "", Direction::LowerIsBetter},
