@@ -17,10 +17,14 @@ constexpr const char* kReflectionsPass = "reflections/reference";
 
 struct ReflectionsReferenceSettings {
   frame::MirrorPathSettings path;
+  bool refraction = false;
   frame::ShadedSetting shading;
   static const SettingsTable<ReflectionsReferenceSettings>& table() {
     using S = ReflectionsReferenceSettings;
-    static const SettingsTable<S> kTable = {included(&S::path), frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {
+        included(&S::path),
+        {&S::refraction, "refraction", frame::kRefractionText, frame::kRefractionSource},
+        frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
@@ -87,10 +91,19 @@ class ReflectionsReference : public techniques::Technique {
       const bool shadow = bounce == 0 ? settings_.shading.shadow : bounce <= settings_.path.shadows;
       sum += share * shading_->colour(point, shadow);
       const scene::Material& material = shading_->material(point.triangle);
-      if (!material.reflects() || bounce == settings_.path.bounces) return sum;
-      share *= exactMirrorShare(material, point);
+      const bool refracts = settings_.refraction && material.refracts();
+      if (!(material.reflects() || refracts) || bounce == settings_.path.bounces) return sum;
+      glm::dvec3 onwards;
+      if (refracts) {
+        const ExactRefraction refraction = exactRefracted(material, point);
+        onwards = refraction.direction;
+        if (refraction.passes) share *= glm::dvec3(material.transmittance);
+      } else {
+        onwards = exactMirrored(point);
+        share *= exactMirrorShare(material, point);
+      }
       if (std::max({share.r, share.g, share.b}) <= settings_.path.leastShare) return sum;
-      ray = {point.position, exactMirrored(point), point.triangle};
+      ray = {point.position, onwards, point.triangle};
       ++rays;
     }
   }

@@ -56,12 +56,14 @@ using MirrorTree = std::variant<KeptTree, TreeOfFrame, RefittedTree>;
 struct RayTracedSettings {
   frame::MirrorPathSettings path;
   MirrorTree tree;
+  bool refraction = false;
   frame::ShadedSetting shading;
   static const SettingsTable<RayTracedSettings>& table() {
     using S = RayTracedSettings;
     static const SettingsTable<S> kTable = {
         included(&S::path),
         {&S::tree, "tree", "Where the tree over the triangles comes from"},
+        {&S::refraction, "refraction", frame::kRefractionText, frame::kRefractionSource},
         shadingBinding(&S::shading)};
     return kTable;
   }
@@ -71,12 +73,13 @@ class RayTracedReflections : public Technique {
  public:
   using Settings = RayTracedSettings;
   explicit RayTracedReflections(const RayTracedSettings& settings)
-      : settings_(settings), picture_(settings.shading) {}
+      : settings_(settings), picture_(settings.shading, settings.refraction) {}
 
   void prepare(frame::Frame& frame) override {
-    program_ =
-        &frame.context().programs().compute("renderer/techniques/reflections/ray_traced/ray_traced.comp.glsl",
-                                            frame::mirrorTraceDefines(settings_.shading, frame));
+    gl::ShaderDefines defines = frame::mirrorTraceDefines(settings_.shading, frame);
+    if (settings_.refraction) defines["REFRACT"] = "1";
+    program_ = &frame.context().programs().compute(
+        "renderer/techniques/reflections/ray_traced/ray_traced.comp.glsl", defines);
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
     const int bits = codeBits();
     if (bits > 0) device_.emplace(frame.context(), frame.gpuScene().triangleCount(), bits / 3);
@@ -86,7 +89,7 @@ class RayTracedReflections : public Technique {
   }
 
   void render(frame::Frame& frame) override {
-    const frame::MirrorRays& rays = frame.get<frame::MirrorRays>();
+    const frame::MirrorRays& rays = frame::firstRays(frame, settings_.refraction);
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     if (device_) buildTree(frame);
     {
