@@ -93,6 +93,10 @@ void requireTraits(const techniques::TechniqueInfo& info, const scene::Scene& sc
       throw Error("technique '" + info.name + "' needs a scene with '" + need + "', which '" + scene.name +
                       "' with these parameters does not have",
                   {}, "choose another light or another technique");
+  if (traits.count("moving_parts") && !info.followsMotion)
+    throw Error("technique '" + info.name + "' knows scenes at rest alone, and parts of '" + scene.name +
+                    "' with these parameters move",
+                {}, "leave out the motion, or choose another technique");
 }
 
 RenderedOnce renderWithRemarks(gl::Context& context, const frame::SceneOnGpu& onGpu, glm::ivec2 sizePx,

@@ -4,7 +4,23 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "renderer/frame/frame_bindings.h"
+
 namespace limen::frame {
+namespace {
+
+constexpr const char* kMovePass = "frame/move_vertices";
+
+std::shared_ptr<const MovedVertices> movedVertices(gl::Context& context, const scene::Scene& scene,
+                                                   const GpuScene& gpuScene) {
+  if (scene.motions.empty()) return nullptr;
+  const SurfaceBuffers& surface = gpuScene.surface();
+  return std::make_shared<const MovedVertices>(
+      context, scene.motions, gpuScene.anchor(), gpuScene.positions(),
+      surface.hasNormals() ? &surface.normals() : nullptr, scene::motionsOfVertices(scene));
+}
+
+}  // namespace
 
 Frame::Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gpuScene, glm::ivec2 sizePx,
              double timeS, Raster raster)
@@ -14,7 +30,12 @@ Frame::Frame(gl::Context& context, const scene::Scene& scene, const GpuScene& gp
       sizePx_(sizePx),
       raster_(raster),
       ownPasses_(std::make_unique<gl::PassList>()),
-      passes_(ownPasses_.get()) {
+      passes_(ownPasses_.get()),
+      moved_(movedVertices(context, scene, gpuScene)) {
+  if (moved_) {
+    positions_ = &moved_->positions();
+    passes_->setBytesHeld(kMovePass, moved_->bytes());
+  }
   setTime(timeS);
 }
 
@@ -31,7 +52,9 @@ Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene, 
       sizePx_(sizePx),
       raster_(parent.raster_),
       passes_(parent.passes_),
-      prefix_(parent.prefix_ + name + "/") {
+      prefix_(parent.prefix_ + name + "/"),
+      moved_(parent.moved_) {
+  if (moved_) positions_ = &moved_->positions();
   setTime(parent.timeS_);
 }
 
@@ -52,7 +75,16 @@ void Frame::setLevels(const scene::LodSelection& selection) {
 
 void Frame::begin() {
   ++number_;
-  if (ownPasses_) ownPasses_->beginFrame();
+  if (!ownPasses_) return;
+  ownPasses_->beginFrame();
+  if (!moved_) return;
+  const auto scope = passes().open(kMovePass);
+  moved_->update(timeS_);
+}
+
+void Frame::bindSurfaces() const {
+  gpuScene_.surface().bindStorage();
+  if (moved_ && moved_->normals()) moved_->normals()->bindStorage(kSurfaceNormalsBuffer);
 }
 
 void Frame::end() {

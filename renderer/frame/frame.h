@@ -9,6 +9,7 @@
 
 #include "renderer/frame/compute_raster.h"
 #include "renderer/frame/gpu_scene.h"
+#include "renderer/frame/moved_vertices.h"
 #include "renderer/frame/scene_on_gpu.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
@@ -74,12 +75,17 @@ class Frame {
   double aspect() const { return double(sizePx_.x) / sizePx_.y; }
 
   double timeS() const { return timeS_; }
-  /// Moves on the camera path; inputs made before the next begin() are stale.
+  /// Moves on the camera path and in the parts' motions; inputs made before the next begin() are stale.
   void setTime(double timeS);
   /// Chooses the levels of the scene's LOD objects (see scene/lod_set.h). Without a call: the finest.
   void setLevels(const scene::LodSelection& selection);
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
+  /// Not for scenes whose parts move.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// Storage of the surfaces' shading, with the normals of this frame.
+  void bindSurfaces() const;
+  /// The vertices' positions of this frame.
+  const gl::Buffer& positions() const { return positions_ ? *positions_ : gpuScene_.positions(); }
   /// Fills the G-buffer from chosen positions instead of rasterising. Call it before the first get(); the
   /// textures must hold what is seen when an input is made, and outlive this frame.
   void setSeen(const Seen& seen) { seen_ = seen; }
@@ -91,7 +97,8 @@ class Frame {
   /// What inputs rasterise.
   Geometry geometry() const { return {gpuScene_, ranges_.get(), positions_}; }
 
-  /// Starts a frame: inputs are stale and are made again on request.
+  /// Starts a frame: inputs are stale and are made again on request. Parts that move are where they are at
+  /// the frame's time; of a view within another frame, at that frame's.
   void begin();
   void end();
 
@@ -129,6 +136,7 @@ class Frame {
   gl::PassList* passes_;
   std::string prefix_;
   std::unique_ptr<TriangleRanges> ranges_;
+  std::shared_ptr<const MovedVertices> moved_;  // null: all rest
   const gl::Buffer* positions_ = nullptr;
   Frame* casters_ = nullptr;
   Seen seen_;

@@ -15,6 +15,15 @@ const float kEmptyDepth = 1e30f;
 const uint kScenePositionsBuffer = 0u;
 const uint kSceneIndicesBuffer = 1u;
 
+// Vertices that move (MovedVertices).
+const int kMoveGroup = 256;
+const int kMostMotions = 32;
+const uint kMoveRestPositionsBuffer = 0u;
+const uint kMoveMotionOfBuffer = 1u;
+const uint kMovePositionsBuffer = 2u;
+const uint kMoveRestNormalsBuffer = 3u;
+const uint kMoveNormalsBuffer = 4u;
+
 // Surfaces (SurfaceBuffers). 6 and 7 are left to the tree of rays.
 struct SurfaceMaterial {  // std430
   vec3 albedo;
@@ -199,6 +208,7 @@ const uint kReceiversFromPlanesImage = 1u;
 const uint kMirrorRaysIdsUnit = 0u;
 const uint kMirrorRaysOriginsImage = 0u;
 const uint kMirrorRaysDirectionsImage = 1u;
+const float kTotalReflectionCosine = 2.0f;
 
 // Shaded picture.
 const uint kShadedIdsUnit = 0u;

@@ -140,7 +140,7 @@ GBufferChannel::GBufferChannel(Frame& frame, ChannelSetting setting)
 }
 
 void GBufferChannel::make(Frame& frame) {
-  if (setting_.channel == Channel::Albedo) frame.gpuScene().surface().bindStorage();
+  if (setting_.channel == Channel::Albedo) frame.bindSurfaces();
   resolve(frame, program_, texture_, "frame/" + setting_.key());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
+#include "experiments/base/error.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/ray_tracing/ray_scene.h"
 
@@ -74,6 +75,9 @@ const SurfaceBuffers& GpuScene::surface() const {
 }
 
 const ray_tracing::RayScene& GpuScene::rays(gl::Context& context) const {
+  if (!scene_.motions.empty())
+    throw Error("a tree is kept of triangles at rest, and parts of scene '" + scene_.name + "' move", {},
+                "have the tree rebuilt or refitted in each frame, or choose a scene at rest");
   if (!rays_) {
     std::vector<glm::vec3> positions;
     positions.reserve(scene_.mesh.positions.size());

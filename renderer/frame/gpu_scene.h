@@ -45,10 +45,11 @@ class GpuScene {
   /// Storage blocks as renderer/frame/scene_buffers.glsl declares them: positions, indices.
   void bindStorage(const gl::Buffer* positions = nullptr) const;
   const gl::Buffer& positions() const { return positions_; }  ///< three floats per vertex
+  const gl::Buffer& indices() const { return indices_; }  ///< three words per triangle, finest scene first
   /// Made on first use.
   const SurfaceBuffers& surface() const;
   /// The finest scene's triangles, for tracing rays. Made on first use, then kept. Throws Error if the device
-  /// cannot hold it.
+  /// cannot hold it, or parts of the scene move.
   const ray_tracing::RayScene& rays(gl::Context& context) const;
 
  private:

@@ -5,6 +5,11 @@
 
 namespace limen::frame {
 
+/// Of the parameter "refraction" of techniques that follow rays.
+inline constexpr const char* kRefractionText =
+    "Follow the refracted ray in place of the mirrored one where materials let light through";
+inline constexpr const char* kRefractionSource = "named in Roger 2008, section 3.3.5; the bench's own";
+
 /// How far light is followed from mirror to mirror: the same for all techniques of the family that follow
 /// rays. Roger counts bounces and levels of shadows apart in one table and together in another (section 3.5);
 /// here they are two numbers.

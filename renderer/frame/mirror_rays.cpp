@@ -15,9 +15,23 @@ void configureRayOrigins(const gl::Program& program, const GpuScene& scene) {
   program.set("originTolerance", static_cast<float>(rayOriginTolerance(scene)));
 }
 
-MirrorRays::MirrorRays(Frame& frame)
+namespace {
+
+gl::ShaderDefines rayDefines(const Frame& frame, RefractionSetting setting) {
+  gl::ShaderDefines defines = surfaceDefines(frame, true);
+  if (setting.refraction) defines["REFRACT"] = "1";
+  return defines;
+}
+
+}  // namespace
+
+const MirrorRays& firstRays(Frame& frame, bool refraction) {
+  return refraction ? frame.get<MirrorRays>(RefractionSetting{true}) : frame.get<MirrorRays>();
+}
+
+MirrorRays::MirrorRays(Frame& frame, RefractionSetting setting)
     : program_(frame.context().programs().compute("renderer/frame/mirror_rays.comp.glsl",
-                                                  surfaceDefines(frame, true))),
+                                                  rayDefines(frame, setting))),
       origins_(gl::Format::RGBA32F, frame.sizePx()),
       directions_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld("frame/mirror_rays", origins_.bytes() + directions_.bytes());

@@ -14,11 +14,12 @@ gl::ShaderDefines mirrorTraceDefines(const ShadedSetting& shading, const Frame& 
   return defines;
 }
 
-void configureMirrorTrace(const gl::Program& program, Frame& frame, const ShadedSetting& shading) {
+void configureMirrorTrace(const gl::Program& program, Frame& frame, const ShadedSetting& shading,
+                          const ray_tracing::RayTree* tree) {
   configureShading(program, frame, shading);
   program.set("flatShading", shading.smoothNormals ? 0 : 1);
   configureRayOrigins(program, frame.gpuScene());
-  frame.gpuScene().rays(frame.context()).bind(program);
+  (tree ? *tree : frame.gpuScene().rays(frame.context())).bind(program);
 }
 
 }  // namespace limen::frame

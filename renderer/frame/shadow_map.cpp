@@ -7,6 +7,7 @@
 #include <bit>
 #include <cassert>
 
+#include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "renderer/frame/frame_bindings.h"
 
@@ -107,6 +108,9 @@ ShadowDepth::ShadowDepth(Frame& frame, ShadowMapSettings settings)
               settings.layer > 0 ? ShadowRaster::Extra::Peels : ShadowRaster::Extra::None),
       pass_("frame/shadow_raster" + settings.name()) {
   const scene::Scene& scene = frame.scene();
+  if (!scene.motions.empty())
+    throw Error("shadow maps are fitted to parts at rest, and parts of scene '" + scene.name + "' move", {},
+                "leave shadows out, or choose a scene at rest");
   frustum_ = LightCasters(scene, settings.part)
                  .fit((settings.eye - 0.5) * scene.lights.at(0).size, settings.resolution);
   if (settings.extent != 1.0) {

@@ -15,6 +15,7 @@ class SurfaceBuffers {
   /// Storage blocks as renderer/frame/surface_buffers.glsl declares them.
   void bindStorage() const;
   int64_t bytes() const;
+  const gl::Buffer& normals() const { return normals_; }  ///< three floats per vertex, if it has any
   bool hasNormals() const { return hasNormals_; }
   bool hasAttributes() const { return hasAttributes_; }
 

@@ -20,7 +20,7 @@ void configureSurfacePoints(const gl::Program& program, const Frame& frame, cons
   program.set("sizePx", frame.sizePx());
   program.set("eye", glm::vec3(seenBy.eye - frame.gpuScene().anchor()));
   frame.geometry().bindStorage();
-  frame.gpuScene().surface().bindStorage();
+  frame.bindSurfaces();
 }
 
 }  // namespace limen::frame

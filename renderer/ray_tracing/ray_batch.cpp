@@ -7,9 +7,9 @@
 
 namespace limen::ray_tracing {
 
-RayBatch::RayBatch(gl::Context& context, const RayScene& scene, const std::vector<BatchRay>& rays,
+RayBatch::RayBatch(gl::Context& context, const RayTree& tree, const std::vector<BatchRay>& rays,
                    Wanted wanted)
-    : scene_(scene),
+    : tree_(tree),
       program_(context.programs().compute(
           "renderer/ray_tracing/trace_batch.comp.glsl",
           wanted == Wanted::AnyHit ? gl::ShaderDefines{{"ANY", "1"}} : gl::ShaderDefines{})),
@@ -19,7 +19,7 @@ RayBatch::RayBatch(gl::Context& context, const RayScene& scene, const std::vecto
 
 void RayBatch::trace() const {
   constexpr uint32_t kMostGroups = 65535;
-  scene_.bind(program_);
+  tree_.bind(program_);
   rays_.bindStorage(kRayBatchRaysBuffer);
   hits_.bindStorage(kRayBatchHitsBuffer);
   program_.set("rayCount", count_);

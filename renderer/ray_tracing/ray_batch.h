@@ -3,19 +3,20 @@
 
 #include <vector>
 
+#include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
-#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
+#include "renderer/ray_tracing/ray_tree.h"
 
 namespace limen::ray_tracing {
 
 enum class Wanted { ClosestHit, AnyHit };
 
-/// Given rays through a scene, on the GPU.
+/// Given rays through a tree, on the GPU.
 class RayBatch {
  public:
-  /// `scene` must outlive it.
-  RayBatch(gl::Context& context, const RayScene& scene, const std::vector<BatchRay>& rays, Wanted wanted);
+  /// `tree` must outlive it.
+  RayBatch(gl::Context& context, const RayTree& tree, const std::vector<BatchRay>& rays, Wanted wanted);
 
   /// Starts a dispatch over all rays.
   void trace() const;
@@ -23,7 +24,7 @@ class RayBatch {
   std::vector<BatchHit> hits() const;
 
  private:
-  const RayScene& scene_;
+  const RayTree& tree_;
   const gl::Program& program_;
   uint32_t count_;
   gl::Buffer rays_, hits_;

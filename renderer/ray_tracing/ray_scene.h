@@ -7,24 +7,24 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
+#include "renderer/ray_tracing/ray_tree.h"
 #include "renderer/ray_tracing/wide_bvh.h"
 
 namespace limen::ray_tracing {
 
 /// Triangles in GPU memory, ready for shaders that trace rays (trace.glsl).
-class RayScene {
+class RayScene : public RayTree {
  public:
   /// Builds the tree and uploads it; the vertices are not needed afterwards. Throws Error if the device
   /// cannot hold it.
   RayScene(gl::Context& context, const std::vector<glm::vec3>& vertices,
            const std::vector<glm::uvec3>& triangles);
 
-  /// Buffers and uniforms of trace.glsl, for the next dispatches of `program`.
-  void bind(const gl::Program& program) const;
+  void bind(const gl::Program& program) const override;
   /// Loop iterations that an invocation may take; beyond it a software renderer would leave loops silently.
   int mostIterations() const { return mostIterations_; }
 
-  int64_t bytes() const { return nodes_.bytes() + triangles_.bytes(); }
+  int64_t bytes() const override { return nodes_.bytes() + triangles_.bytes(); }
   double buildS() const { return buildS_; }  ///< of the tree
   uint32_t nodeCount() const { return nodeCount_; }
   uint32_t triangleCount() const { return triangleCount_; }  ///< without those left out

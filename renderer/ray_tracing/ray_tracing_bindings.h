@@ -12,8 +12,9 @@ namespace limen::ray_tracing {
 const uint kRayNodesBuffer = 6u;
 const uint kRayTrianglesBuffer = 7u;
 
-// Levels of the tree, and entries of the traversal's stack.
+// Levels of a tree built on the CPU; levels of any tree, and entries of the traversal's stack.
 const int kRayLevels = 20;
+const int kRayStack = 32;
 const uint kRayNoTriangle = 0xffffffffu;
 const float kRayFarthest = 3.0e38f;  // `far` of a ray without end
 

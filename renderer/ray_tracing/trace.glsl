@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays against the triangles of a RayScene: rayAnyHit() and rayClosestHit().
+// Rays against the triangles of a RayTree: rayAnyHit() and rayClosestHit().
 //
 // Traversal: Ylitie, Karras and Laine 2017 (compressed wide BVH), children in the order of the ray's octant.
 // Every box is widened by a bound on the rounding of its distances, so that no ray passes between boxes, runs in the
@@ -7,7 +7,7 @@
 // vertex, and the sign of an edge is that of the exact one or zero, which counts as inside: no ray passes between
 // triangles that share an edge or a vertex.
 //
-// The shader that includes this defines rayHitCounts(), which may reject hits, and sets what RayScene::bind() needs.
+// The shader that includes this defines rayHitCounts(), which may reject hits, and sets what RayTree::bind() needs.
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
 #include "renderer/ray_tracing/ray_triangle.glsl"
 
@@ -97,7 +97,7 @@ RayHit rayTraverse(Ray ray, bool anyIsEnough) {
   // Children are numbered by the octant in which they lie; the nearest are at the top of the order.
   const uint order = (negative.x ? 0u : 4u) | (negative.y ? 0u : 2u) | (negative.z ? 0u : 1u);
 
-  uvec2 stack[kRayLevels];
+  uvec2 stack[kRayStack];
   int depth = 0;
   uvec2 group = uvec2(0u, 0x80000000u);  // first child; those to visit, and which of all are inner
   while (true) {

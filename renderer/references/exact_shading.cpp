@@ -126,6 +126,7 @@ ExactPoint ExactShading::point(const ExactRay& ray, const ExactHit& hit) const {
   }
   // The triangle decides which side is seen.
   if (glm::dot(point.flatNormal, point.view) < 0.0) {
+    point.isFront = false;
     point.flatNormal = -point.flatNormal;
     point.normal = -point.normal;
   }
@@ -161,6 +162,17 @@ glm::dvec3 exactMirrored(const ExactPoint& point) {
   const glm::dvec3 about = glm::reflect(-point.view, point.normal);
   return glm::normalize(
       glm::dot(about, point.flatNormal) > 0.0 ? about : glm::reflect(-point.view, point.flatNormal));
+}
+
+ExactRefraction exactRefracted(const scene::Material& material, const ExactPoint& point) {
+  // Sines: of the way out of this side, and on the other.
+  const double index = material.refractiveIndex, quotient = point.isFront ? 1.0 / index : index;
+  const double cosine = glm::dot(point.view, point.normal);
+  const glm::dvec3 along = cosine * point.normal - point.view;  // in the surface, sine long
+  const double sineBehind = quotient * glm::length(along);
+  if (sineBehind > 1.0) return {exactMirrored(point), false};
+  const glm::dvec3 through = quotient * along - std::sqrt(1.0 - sineBehind * sineBehind) * point.normal;
+  return {glm::dot(through, point.flatNormal) < 0.0 ? glm::normalize(through) : -point.view, true};
 }
 
 glm::dvec3 exactMirrorShare(const scene::Material& material, const ExactPoint& point) {

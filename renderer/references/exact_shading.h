@@ -11,6 +11,7 @@ struct ExactPoint {
   uint32_t triangle = ExactRay::kNoTriangle;
   glm::dvec3 position{0.0}, view{0.0};      ///< view: unit, to where it is seen from
   glm::dvec3 flatNormal{0.0}, normal{0.0};  ///< unit, on the viewer's side
+  bool isFront = true;                      ///< the viewer sees the triangle's front
 };
 
 /// What frame::Shaded and the tracers of mirrors make of a surface, in double precision and written apart
@@ -45,6 +46,13 @@ double exactHighlight(const frame::ShadedSetting& setting, glm::dvec3 normal, gl
 /// Unit direction in which a mirror sends what it gets from `view`: about the shading normal, or about the
 /// triangle's own where that would lead beneath the surface.
 glm::dvec3 exactMirrored(const ExactPoint& point);
+/// Unit direction in which light is followed through a surface: Snell's law at the shading normal (straight
+/// on where that would lead back), or exactMirrored() where nothing passes.
+struct ExactRefraction {
+  glm::dvec3 direction{0.0};
+  bool passes = false;
+};
+ExactRefraction exactRefracted(const scene::Material& material, const ExactPoint& point);
 /// Share of the light that a mirror reflects towards the view.
 glm::dvec3 exactMirrorShare(const scene::Material& material, const ExactPoint& point);
 

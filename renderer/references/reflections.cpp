@@ -17,10 +17,14 @@ constexpr const char* kReflectionsPass = "reflections/reference";
 
 struct ReflectionsReferenceSettings {
   frame::MirrorPathSettings path;
+  bool refraction = false;
   frame::ShadedSetting shading;
   static const SettingsTable<ReflectionsReferenceSettings>& table() {
     using S = ReflectionsReferenceSettings;
-    static const SettingsTable<S> kTable = {included(&S::path), frame::shadingBinding(&S::shading)};
+    static const SettingsTable<S> kTable = {
+        included(&S::path),
+        {&S::refraction, "refraction", frame::kRefractionText, frame::kRefractionSource},
+        frame::shadingBinding(&S::shading)};
     return kTable;
   }
 };
@@ -31,10 +35,7 @@ class ReflectionsReference : public techniques::Technique {
   explicit ReflectionsReference(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    const glm::dvec3 anchor = frame.gpuScene().anchor();
-    triangles_.emplace(frame.scene(), anchor);
-    tree_.emplace(*triangles_);
-    shading_.emplace(frame.scene(), *triangles_, *tree_, anchor, settings_.shading);
+    if (frame.scene().motions.empty()) build(frame, frame.scene());
     product_.emplace(gl::Format::RGBA32F, frame.sizePx());
     picture_ = Image(frame.sizePx().x, frame.sizePx().y, 4, 1.0F);
     frame.passes().setBytesHeld(kReflectionsPass, product_->bytes());
@@ -42,6 +43,10 @@ class ReflectionsReference : public techniques::Technique {
 
   void render(frame::Frame& frame) override {
     const auto scope = frame.passes().open(kReflectionsPass);
+    if (!frame.scene().motions.empty()) {
+      shading_.reset();
+      build(frame, moved_.emplace(scene::movedTo(frame.scene(), frame.timeS())));
+    }
     const glm::dmat4 toAnchor = glm::inverse(frame.anchorToCamera());
     const glm::dvec3 eye(toAnchor[3]);
     const glm::dvec2 size(frame.sizePx());
@@ -69,6 +74,13 @@ class ReflectionsReference : public techniques::Technique {
   }
 
  private:
+  void build(const frame::Frame& frame, const scene::Scene& scene) {
+    const glm::dvec3 anchor = frame.gpuScene().anchor();
+    triangles_.emplace(scene, anchor);
+    tree_.emplace(*triangles_);
+    shading_.emplace(scene, *triangles_, *tree_, anchor, settings_.shading);
+  }
+
   /// Light that comes along a ray from the eye; `rays` grows by those that leave mirrors.
   glm::dvec3 followed(ExactRay ray, int64_t& rays) const {
     glm::dvec3 sum(0.0), share(1.0);
@@ -79,15 +91,25 @@ class ReflectionsReference : public techniques::Technique {
       const bool shadow = bounce == 0 ? settings_.shading.shadow : bounce <= settings_.path.shadows;
       sum += share * shading_->colour(point, shadow);
       const scene::Material& material = shading_->material(point.triangle);
-      if (!material.reflects() || bounce == settings_.path.bounces) return sum;
-      share *= exactMirrorShare(material, point);
+      const bool refracts = settings_.refraction && material.refracts();
+      if (!(material.reflects() || refracts) || bounce == settings_.path.bounces) return sum;
+      glm::dvec3 onwards;
+      if (refracts) {
+        const ExactRefraction refraction = exactRefracted(material, point);
+        onwards = refraction.direction;
+        if (refraction.passes) share *= glm::dvec3(material.transmittance);
+      } else {
+        onwards = exactMirrored(point);
+        share *= exactMirrorShare(material, point);
+      }
       if (std::max({share.r, share.g, share.b}) <= settings_.path.leastShare) return sum;
-      ray = {point.position, exactMirrored(point), point.triangle};
+      ray = {point.position, onwards, point.triangle};
       ++rays;
     }
   }
 
   ReflectionsReferenceSettings settings_;
+  std::optional<scene::Scene> moved_;  ///< of the last frame, if parts move
   std::optional<Triangles> triangles_;
   std::optional<TriangleTree> tree_;
   std::optional<ExactShading> shading_;
@@ -104,6 +126,7 @@ const techniques::RegisteredTechnique<ReflectionsReference> kReflectionsReferenc
      .product = techniques::ProductKind::Colour,
      .needs = {"mirrors"},
      .reference = true,
+     .followsMotion = true,
      .onCpu = true,
      .counters = {{"mirrored_rays", "Rays that leave mirrors", "", Direction::Neither}}}};
 

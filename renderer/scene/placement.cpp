@@ -43,6 +43,10 @@ void mapWorld(Scene& scene, Map map) {
   for (NurbsPart& part : scene.nurbs) mapPoints(part.surface.points);
   for (const auto member : {&surfaces::PatchMotion::sine, &surfaces::PatchMotion::cosine})
     for (glm::dvec3& vector : scene.surfaces.motion.*member) vector = map(vector) - map(glm::dvec3(0.0));
+  for (PartMotion& motion : scene.motions) {
+    motion.pivot = map(motion.pivot);
+    motion.travel = map(motion.travel) - map(glm::dvec3(0.0));
+  }
   for (CameraPath::Key& key : scene.camera.keys) {
     key.camera.eye = map(key.camera.eye);
     key.camera.target = map(key.camera.target);

@@ -129,6 +129,11 @@ void feedExtras(Feed& out, const Scene& scene) {
     for (const double distance : object.switchDistances) out.value(distance);
     out.vector(object.bounds.low), out.vector(object.bounds.high);
   }
+  for (const PartMotion& motion : scene.motions) {
+    out.text("motion"), out.value(motion.part), out.vector(motion.pivot), out.vector(motion.axis);
+    out.value(motion.turnDegS), out.vector(motion.travel), out.value(motion.periodS);
+    out.value(motion.startS);
+  }
   if (!scene.surfaces.empty()) feedSurfaces(out, scene.surfaces);
   if (scene.items)
     out.text("stream"), out.array(scene.items->items), out.array(scene.items->keys),
@@ -146,6 +151,22 @@ Bounds Scene::bounds() const {
   Bounds bounds;
   for (const glm::dvec3& position : mesh.positions)
     if (finite(position)) bounds.extend(position);
+  for (const PartMotion& motion : motions) {
+    const Part& part = parts[motion.part];
+    Bounds swept;
+    double reach = 0.0;
+    for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const glm::dvec3& position = mesh.positions[mesh.triangles[t][corner]];
+        if (!finite(position)) continue;
+        swept.extend(position);
+        reach = std::max(reach, glm::length(position - motion.pivot));
+      }
+    if (swept.empty()) continue;
+    if (motion.turnDegS != 0.0) swept = {motion.pivot - reach, motion.pivot + reach};
+    bounds.extend(swept.low - glm::abs(motion.travel));
+    bounds.extend(swept.high + glm::abs(motion.travel));
+  }
   return bounds;
 }
 
@@ -204,6 +225,7 @@ std::set<std::string> Scene::traits() const {
   if (!surfaces.empty()) out.insert("curved_surfaces");
   if (!nurbs.empty()) out.insert("nurbs");
   if (surfaces.motion.moves()) out.insert("moving_surfaces");
+  if (!motions.empty()) out.insert("moving_parts");
   if (!surfaces.trims.empty()) out.insert("trimmed_surfaces");
   if (items) out.insert("item_stream");
   if (!subdivisions.empty()) out.insert("subdivision_surfaces");

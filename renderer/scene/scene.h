@@ -15,6 +15,7 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/scene/item_stream.h"
 #include "renderer/scene/material.h"
+#include "renderer/scene/part_motion.h"
 #include "renderer/surfaces/nurbs.h"
 #include "renderer/surfaces/patch_set.h"
 #include "renderer/surfaces/subdivision_surface.h"
@@ -167,8 +168,10 @@ struct Scene {
   std::vector<LodObject> lodObjects;
   Mesh coarser;                     ///< all other levels; its triangles index its own vertices
   std::optional<ItemStream> items;  ///< for techniques of streams, which render nothing
+  /// Parts that move; `mesh` holds them at rest. At most one of a part; scenes with LOD objects have none.
+  std::vector<PartMotion> motions;
 
-  Bounds bounds() const;        ///< of all finite positions
+  Bounds bounds() const;        ///< of all finite positions, wherever they move
   Bounds casterBounds() const;  ///< of parts that are not receiverOnly
   /// SHA-256 over the exact bytes of everything that determines a picture: geometry, parts, materials,
   /// lights, camera; no names.
@@ -177,8 +180,8 @@ struct Scene {
   /// What the scene has, for techniques that need it: "area_light"; of the first light "rectangular_light",
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
   /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
-  /// "nurbs", "subdivision_surfaces", "trimmed_surfaces", "moving_surfaces", "item_stream"; of its parts'
-  /// materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
+  /// "nurbs", "subdivision_surfaces", "trimmed_surfaces", "moving_surfaces", "moving_parts", "item_stream";
+  /// of its parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
   std::set<std::string> traits() const;
 };
 

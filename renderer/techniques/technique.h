@@ -88,7 +88,9 @@ struct TechniqueInfo {
   ParameterList parameters = {};
   std::vector<std::string> needs = {};  ///< scene traits without which it cannot run ("rectangular_light")
   bool reference = false;               ///< a reference to compare with
-  bool tessellates = false;             ///< has a tessellation() for metrics of the surface
+  /// Right for scenes whose parts move ("moving_parts"); others are refused them.
+  bool followsMotion = false;
+  bool tessellates = false;  ///< has a tessellation() for metrics of the surface
   /// Runs on the CPU: its time is wall time on any machine.
   bool onCpu = false;
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.

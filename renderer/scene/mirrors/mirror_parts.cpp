@@ -11,6 +11,24 @@
 
 namespace limen::scene {
 
+const SettingsTable<ObjectsInMotion>& ObjectsInMotion::table() {
+  using S = ObjectsInMotion;
+  static const SettingsTable<S> kTable = {
+      {&S::timeS, "time_s", {0.0, 3600.0}, "s", "Time of the motion at the first frame"},
+      {&S::speed, "speed", {0.0, 100.0}, "", "Multiplies all speeds"}};
+  return kTable;
+}
+
+void moveLastPart(Scene& scene, const ObjectMotion& choice, PartMotion motion) {
+  const auto* moving = std::get_if<ObjectsInMotion>(&choice);
+  if (!moving || moving->speed == 0.0) return;
+  motion.part = static_cast<uint32_t>(scene.parts.size() - 1);
+  motion.startS = moving->timeS;
+  motion.turnDegS *= moving->speed;
+  motion.periodS /= moving->speed;
+  scene.motions.push_back(motion);
+}
+
 Material mirrorMaterial(double reflectance, double glossRad) {
   Material material;
   material.name = "mirror";

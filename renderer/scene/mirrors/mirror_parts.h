@@ -3,10 +3,28 @@
 
 #include <functional>
 #include <span>
+#include <variant>
 
 #include "renderer/scene/scene.h"
 
 namespace limen::scene {
+
+struct ObjectsAtRest {
+  static constexpr const char *kKind = "rest", *kSummary = "nothing moves";
+};
+struct ObjectsInMotion {
+  static constexpr const char *kKind = "moving",
+                              *kSummary = "objects turn and travel to and fro, each as a rigid body";
+  double timeS = 0.0, speed = 1.0;
+  static const SettingsTable<ObjectsInMotion>& table();
+};
+/// Whether a scene's objects move. At time 0 they are where they rest.
+using ObjectMotion = std::variant<ObjectsAtRest, ObjectsInMotion>;
+inline constexpr const char* kMotionText = "Whether objects move while frames pass";
+
+/// Makes the part added last move, if objects do. `motion`: its own but for the part, and for `startS`,
+/// `turnDegS` and `periodS` at other speeds than 1.
+void moveLastPart(Scene& scene, const ObjectMotion& choice, PartMotion motion);
 
 /// A nearly black surface that reflects this share of the light, all channels alike; `glossRad` as in
 /// Material.

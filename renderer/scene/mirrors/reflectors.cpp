@@ -19,6 +19,7 @@ struct MirrorEllipsoidSettings {
   double width = 1.0, height = 1.5, depth = 0.7;
   int tessellation = 48;
   double reflectance = 0.8;
+  ObjectMotion motion;
   static const SettingsTable<MirrorEllipsoidSettings>& table() {
     using S = MirrorEllipsoidSettings;
     static const SettingsTable<S> kTable = {
@@ -26,21 +27,25 @@ struct MirrorEllipsoidSettings {
         {&S::height, "height", {0.1, 4.0}, "world units", "Vertical semi-axis"},
         {&S::depth, "depth", {0.1, 4.0}, "world units", "Semi-axis along z"},
         {&S::tessellation, "tessellation", {1, 128}, "segments", "Segments in a quarter of its sections"},
-        {&S::reflectance, "reflectance", kReflectanceRange, "", kReflectanceText}};
+        {&S::reflectance, "reflectance", kReflectanceRange, "", kReflectanceText},
+        {&S::motion, "motion", kMotionText}};
     return kTable;
   }
 };
 
 /// Objects around a reflector that is `reach` wide and stands on the ground.
-void addCompany(Scene& scene, double reach) {
+void addCompany(Scene& scene, double reach, const ObjectMotion& motion) {
   const auto at = [&](double x, double z) { return glm::dvec3(x * reach, 0.0, z * reach); };
   addPart(scene, "red box", box(at(1.3, -0.2), at(1.8, 0.3) + glm::dvec3(0.0, 0.8 * reach, 0.0)),
           {0.7F, 0.25F, 0.2F});
+  moveLastPart(scene, motion, {.pivot = at(1.55, 0.05), .turnDegS = 90.0});
   addPart(scene, "blue box", box(at(-2.0, 0.4), at(-1.5, 0.9) + glm::dvec3(0.0, 0.6 * reach, 0.0)),
           {0.25F, 0.5F, 0.7F});
+  moveLastPart(scene, motion, {.pivot = at(-1.75, 0.65), .travel = at(0.0, 0.6), .periodS = 2.0});
   addPart(scene, "cone",
           frustum(at(0.3, 1.8), at(0.3, 1.8) + glm::dvec3(0.0, 0.7 * reach, 0.0), 0.3 * reach, 0.0, 48),
           {0.3F, 0.6F, 0.3F});
+  moveLastPart(scene, motion, {.turnDegS = 30.0});  // around the reflector
 }
 
 Scene buildMirrorEllipsoid(const MirrorEllipsoidSettings& settings) {
@@ -50,7 +55,7 @@ Scene buildMirrorEllipsoid(const MirrorEllipsoidSettings& settings) {
   addCheckeredGround(scene, 12.0 * reach, 0.5 * reach);
   addPart(scene, ellipsoid({0.0, settings.height, 0.0}, semiAxes, settings.tessellation),
           mirrorMaterial(settings.reflectance));
-  addCompany(scene, reach);
+  addCompany(scene, reach, settings.motion);
   frameStanding(scene, 2.0 * settings.height, 1.5 * reach);
   return scene;
 }
@@ -121,6 +126,7 @@ constexpr EnumNames<BunnyRole, 2> enumNames(BunnyRole) {
 struct MirrorBunnySettings {
   BunnyRole role = BunnyRole::Reflected;
   double share = 1.0, reflectance = 0.8, glossRad = 0.0;
+  ObjectMotion motion;
   static const SettingsTable<MirrorBunnySettings>& table() {
     using S = MirrorBunnySettings;
     static const SettingsTable<S> kTable = {
@@ -137,7 +143,8 @@ struct MirrorBunnySettings {
          {0.0, 1.0},
          "rad",
          "Half-angle of the cone from which the mirror gathers light",
-         "Roger 2008, Fig. 5.10"}};
+         "Roger 2008, Fig. 5.10"},
+        {&S::motion, "motion", kMotionText}};
     return kTable;
   }
 };
@@ -161,12 +168,14 @@ Scene buildMirrorBunny(const MirrorBunnySettings& settings) {
   const Material mirror = mirrorMaterial(settings.reflectance, settings.glossRad);
   if (settings.role == BunnyRole::Reflector) {
     addPart(scene, bunnyOf(settings.share), mirror);
-    addCompany(scene, 0.8);
+    addCompany(scene, 0.8, settings.motion);
   } else {
     Material fur;
     fur.name = "bunny";
     fur.albedo = glm::vec3(0.7F, 0.5F, 0.35F);
     addPart(scene, movedMesh(bunnyOf(settings.share), 0.8, -25.0, {0.75, 0.0, 0.9}), fur);
+    moveLastPart(scene, settings.motion,
+                 {.pivot = {0.75, 0.0, 0.9}, .turnDegS = 60.0, .travel = {0.12, 0.0, 0.12}, .periodS = 2.0});
     addPart(scene, ellipsoid({-0.2, 0.5, 0.0}, glm::dvec3(0.5), 48), mirror);
   }
   frameStanding(scene, 1.0, 1.0);

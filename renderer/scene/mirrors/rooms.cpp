@@ -123,6 +123,7 @@ struct MirrorKitchenSettings {
   int tessellation = 28;
   int bounceSurfaces = 2;
   double reflectance = 0.6;
+  ObjectMotion motion;
   static const SettingsTable<MirrorKitchenSettings>& table() {
     using S = MirrorKitchenSettings;
     static const SettingsTable<S> kTable = {
@@ -137,7 +138,8 @@ struct MirrorKitchenSettings {
          {1, 3},
          "",
          "What reflects: kettle and pots, the worktops, the tiles"},
-        {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that kettle and pots reflect"}};
+        {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that kettle and pots reflect"},
+        {&S::motion, "motion", kMotionText}};
     return kTable;
   }
 };
@@ -196,9 +198,14 @@ Scene buildMirrorKitchen(const MirrorKitchenSettings& settings) {
     }
   addPart(scene, tiles, tile);
 
+  // The kettle slides along the worktop and turns, the chairs are moved, the bowl of fruit turns.
+  const PartMotion kettle{
+      .pivot = {0.5, 0.9, -2.15}, .turnDegS = 45.0, .travel = {0.3, 0.0, 0.0}, .periodS = 4.0};
   addPart(scene, movedMesh(kettleBody(n), 0.2, 0.0, {0.5, 0.9, -2.15}), shiny);
+  moveLastPart(scene, settings.motion, kettle);
   addPart(scene, movedMesh(kettleFittings(n), 0.2, 0.0, {0.5, 0.9, -2.15}),
           plain("handle", {0.1F, 0.1F, 0.1F}));
+  moveLastPart(scene, settings.motion, kettle);
   Mesh pots, crockery, fruit;
   for (const double x : {-0.3, -0.75, -1.2})
     append(pots, movedMesh(vessel(0.17, 0.2, 0.15, n), 1.0, 0.0, {x, 0.9, -2.2}));
@@ -222,6 +229,7 @@ Scene buildMirrorKitchen(const MirrorKitchenSettings& settings) {
                             n / 3));
   }
   addPart(scene, fruit, plain("fruit", {0.8F, 0.35F, 0.1F}));
+  moveLastPart(scene, settings.motion, {.pivot = {0.3, 0.85, -0.1}, .turnDegS = 60.0});
   addPart(scene, ellipsoid({-0.3, 0.74 + 0.16, -0.1}, glm::dvec3(0.16), 2 * n), shiny);
   Mesh chairs;
   for (const double x : {-0.5, 0.5}) {
@@ -229,6 +237,7 @@ Scene buildMirrorKitchen(const MirrorKitchenSettings& settings) {
     append(chairs, movedMesh(chair(), 1.0, 180.0, {x, 0.0, 0.65}));
   }
   addPart(scene, chairs, plain("chairs", {0.6F, 0.3F, 0.15F}));
+  moveLastPart(scene, settings.motion, {.travel = {0.15, 0.0, 0.2}, .periodS = 3.0});
   scene.lights = {lightTowards({0.6, 4.6, 2.6}, {0.0, 0.8, -0.6}, glm::dvec2(0.4))};
   setStillCamera(scene, {{0.25, 1.75, 2.3}, {-0.05, 0.75, -0.9}, {0.0, 1.0, 0.0}, 46.0});
   return scene;

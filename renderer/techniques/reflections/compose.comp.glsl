@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Local light of each pixel, and what mirrors add to it. See reflection_picture.h.
-#include "renderer/frame/mirrored.glsl"
-#include "renderer/frame/surface_buffers.glsl"
 #include "renderer/techniques/reflections/reflection_bindings.h"
+#include "renderer/techniques/reflections/seen_share.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kReflectionOriginsUnit) uniform sampler2D origins;
@@ -21,7 +20,7 @@ void main() {
   if (texelFetch(origins, pixel, 0).w > 0.0) {
     const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[texelFetch(triangleIds, pixel, 0).x]];
     const vec4 found = texelFetch(reflected, pixel, 0);
-    const vec3 share = mirrorShare(material.mirror, material.fresnel != 0u, texelFetch(directions, pixel, 0).w);
+    const vec3 share = firstShare(material, texelFetch(directions, pixel, 0).w);
     colour += share * (found.rgb + (1.0 - clamp(found.a, 0.0, 1.0)) * background);
   }
   imageStore(outImage, pixel, vec4(colour, 1.0));

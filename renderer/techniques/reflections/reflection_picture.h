@@ -15,7 +15,9 @@ namespace limen::techniques {
 /// reflect alone.
 class ReflectionPicture {
  public:
-  explicit ReflectionPicture(const frame::ShadedSetting& shading) : shading_(shading) {}
+  /// `refraction`: as MirrorRays has it.
+  explicit ReflectionPicture(const frame::ShadedSetting& shading, bool refraction = false)
+      : shading_(shading), refraction_(refraction) {}
 
   void prepare(frame::Frame& frame);
   /// `reflected`: RGBA32F of the frame's size, radiance at pixels with a ray in MirrorRays; alpha: the share
@@ -28,6 +30,7 @@ class ReflectionPicture {
 
  private:
   frame::ShadedSetting shading_;
+  bool refraction_;
   const gl::Program* program_ = nullptr;
   std::optional<gl::Texture> picture_;
 };

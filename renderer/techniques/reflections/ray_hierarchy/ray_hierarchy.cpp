@@ -42,9 +42,7 @@ const SettingsTable<RayHierarchySettings>& RayHierarchySettings::table() {
       included(&S::path),
       {&S::primary, "primary", "How the surfaces that pixels see are found",
        "raster in Roger 2008, section 3.2.2; both possible, section 3.3.5"},
-      {&S::refraction, "refraction",
-       "Follow the refracted ray in place of the mirrored one where materials let light through",
-       "named in Roger 2008, section 3.3.5; the bench's own"},
+      {&S::refraction, "refraction", frame::kRefractionText, frame::kRefractionSource},
       {&S::traversal, "traversal", "Rays against triangles"},
       shadingBinding(&S::shading)};
   return kTable;
@@ -72,7 +70,7 @@ class RayHierarchyReflections : public Technique {
  public:
   using Settings = RayHierarchySettings;
   explicit RayHierarchyReflections(const RayHierarchySettings& settings)
-      : settings_(settings), picture_(settings.shading) {}
+      : settings_(settings), picture_(settings.shading, settings.refraction) {}
 
   void prepare(frame::Frame& frame) override {
     const std::string folder = "renderer/techniques/reflections/ray_hierarchy/";
@@ -112,7 +110,7 @@ class RayHierarchyReflections : public Technique {
       imageBarrier();
       rays = own_[1]->textures();
     } else {
-      const frame::MirrorRays& mirrors = frame.get<frame::MirrorRays>();
+      const frame::MirrorRays& mirrors = frame::firstRays(frame, settings_.refraction);
       rays = {&mirrors.origins(), &mirrors.directions(), &frame.get<frame::TriangleIds>().texture()};
     }
     traversal_->beginFrame(frame);
@@ -195,7 +193,7 @@ class RayHierarchyReflections : public Technique {
     program.set("flatShading", settings_.shading.smoothNormals ? 0 : 1);
     configureRayOrigins(program, frame.gpuScene());
     if (!traced()) {
-      frame.get<frame::MirrorRays>().directions().bindTexture(kHierarchySeenUnit);
+      frame::firstRays(frame, settings_.refraction).directions().bindTexture(kHierarchySeenUnit);
       frame.get<frame::TriangleIds>().texture().bindTexture(kHierarchySeenIdsUnit);
     }
     traversal_->hits().bindStorage(kHierarchyHitsBuffer);
@@ -211,7 +209,7 @@ class RayHierarchyReflections : public Technique {
 
   int64_t raysOf(frame::Frame& frame) const {
     if (traced()) return int64_t{frame.sizePx().x} * frame.sizePx().y;
-    const Image origins = frame.get<frame::MirrorRays>().origins().read();
+    const Image origins = frame::firstRays(frame, settings_.refraction).origins().read();
     int64_t rays = 0;
     for (size_t i = 3; i < origins.data.size(); i += 4) rays += origins.data[i] > 0.0F;
     return rays;
@@ -229,11 +227,12 @@ class RayHierarchyReflections : public Technique {
 
 const RegisteredTechnique<RayHierarchyReflections> kRayHierarchyRegistered{
     {.name = "reflections/ray_hierarchy",
-     .version = 1,
+     .version = 2,
      .summary = "Mirrors by a hierarchy over the rays, for scenes without a structure over their triangles",
      .source = "Roger 2008, chapter 3 (R-13 to R-26)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = RayHierarchyReflections::quantities()}};
 
 }  // namespace

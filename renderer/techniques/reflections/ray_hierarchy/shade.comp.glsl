@@ -2,8 +2,10 @@
 // What the rays of one bounce bring, and the rays that leave the surfaces they met. See ray_hierarchy.cpp.
 uniform ivec2 sizePx;
 #include "renderer/frame/mirrored.glsl"
+#include "renderer/frame/refracted.glsl"
 #include "renderer/frame/shading.glsl"
 #include "renderer/techniques/reflections/ray_hierarchy/meet.glsl"
+#include "renderer/techniques/reflections/seen_share.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 #ifdef POINTS
@@ -28,22 +30,11 @@ uniform bool flatShading;  // mirrors reflect at their shading normals all the s
 float sunShare(ivec2 pixel, SeenPoint seen) { return 1.0; }
 #endif
 
-#ifdef REFRACT
-// Through the surface, or mirrored by it where nothing passes; `outside`: the normal of the triangle's front.
-vec3 refracted(SurfacePoint point, SurfaceMaterial material, vec3 outside, out bool passes) {
-  const float index = material.refractiveIndex, ratio = dot(outside, point.view) > 0.0 ? 1.0 / index : index;
-  const vec3 through = refract(-point.view, point.normal, ratio);
-  passes = dot(through, through) > 0.25;
-  if (!passes) return mirrored(point.view, point.normal, point.flatNormal);
-  return dot(through, point.flatNormal) < 0.0 ? normalize(through) : -point.view;
-}
-#endif
-
 // Share of a ray's light that the pixel's own surface reflects.
 vec3 seenShare(ivec2 pixel) {
   if (traced) return vec3(1.0);
   const SurfaceMaterial seen = surfaceMaterials[surfaceMaterialOf[texelFetch(seenIds, pixel, 0).x]];
-  return mirrorShare(seen.mirror, seen.fresnel != 0u, texelFetch(seenDirections, pixel, 0).w);
+  return firstShare(seen, texelFetch(seenDirections, pixel, 0).w);
 }
 
 // True if what adds `share` to the sum is to be followed.
@@ -70,11 +61,8 @@ vec3 onwards(SurfacePoint point, inout vec3 share) {
   const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[point.triangle]];
 #ifdef REFRACT
   if (material.transmittance != vec3(0.0)) {
-    const uvec3 vertices = sceneTriangle(point.triangle);
-    const vec3 corner = scenePosition(vertices.x);
     bool passes;
-    const vec3 direction = refracted(
-        point, material, cross(scenePosition(vertices.y) - corner, scenePosition(vertices.z) - corner), passes);
+    const vec3 direction = refracted(point, material, passes);
     if (passes) share *= material.transmittance;
     return direction;
   }

@@ -12,6 +12,8 @@ uniform ivec2 sizePx;
 uniform int bounces, shadows;
 uniform float leastShare;
 #include "renderer/frame/mirror_trace.glsl"
+#include "renderer/frame/refracted.glsl"
+#include "renderer/techniques/reflections/seen_share.glsl"
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -22,7 +24,7 @@ void main() {
   const vec4 direction = texelFetch(directions, pixel, 0);
   Ray ray = Ray(origin.xyz, direction.xyz, 0.0, kRayFarthest, id);
   const SurfaceMaterial first = surfaceMaterials[surfaceMaterialOf[id]];
-  const vec3 seenShare = mirrorShare(first.mirror, first.fresnel != 0u, direction.w);
+  const vec3 seenShare = firstShare(first, direction.w);
   vec3 sum = vec3(0.0), share = vec3(1.0);
   for (int bounce = 0; bounce < bounces; ++bounce) {
     const vec3 adds = share * seenShare;
@@ -35,6 +37,14 @@ void main() {
     const SurfacePoint point = hitPoint(ray, hit);
     sum += share * hitColour(point, bounce < shadows);
     const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[hit.triangle]];
+#ifdef REFRACT
+    if (material.transmittance != vec3(0.0)) {
+      bool passes;
+      ray = rayFrom(point, refracted(point, material, passes));
+      if (passes) share *= material.transmittance;
+      continue;
+    }
+#endif
     share *= mirrorShare(material.mirror, material.fresnel != 0u, dot(point.view, point.normal));
     ray = mirrorRay(point);
   }

@@ -17,8 +17,10 @@
 
 #include <optional>
 
+#include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/mirror_rays.h"
+#include "renderer/frame/moved_vertices.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/reflections/vertex_reflection/far_environment.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflected_mesh.h"
@@ -31,6 +33,7 @@ namespace limen::techniques {
 namespace {
 
 const std::string kVertexReflectionFolder = "renderer/techniques/reflections/vertex_reflection/";
+constexpr const char* kMoveReflectedPass = "reflections/move_vertices";
 constexpr const char* kSolvePass = "reflections/solve_vertices";
 constexpr const char* kBacksPass = "reflections/back_faces";
 constexpr const char* kFarPass = "reflections/far_environment";
@@ -51,6 +54,7 @@ class VertexReflection : public Technique {
   }
 
   void prepare(frame::Frame& frame) override {
+    checkMotion(frame.scene());
     const int segments =
         adaptive_ ? adaptive_->segments : std::get<EvenSegments>(settings_.tessellation).segments;
     mesh_ = reflections::divided(frame.scene().mesh, segments, frame.gpuScene().anchor());
@@ -63,6 +67,7 @@ class VertexReflection : public Technique {
       ranges_.push_back(std::make_unique<frame::TriangleRanges>(1));
       ranges_.back()->set({reflector.triangles});
     }
+    prepareMotion(frame);
     makeVertexArray();
     compile(frame);
     prepareFar(frame);
@@ -84,6 +89,10 @@ class VertexReflection : public Technique {
   void render(frame::Frame& frame) override {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    if (moved_) {
+      const auto scope = frame.passes().open(kMoveReflectedPass);
+      moved_->update(frame.timeS());
+    }
     if (settings_.placement == Placement::Compute) solveVertices(frame);
     if (settings_.hideBehindBacks) drawBacks(frame);
     {
@@ -112,6 +121,7 @@ class VertexReflection : public Technique {
 
   std::vector<Counter> count(frame::Frame& frame) override {
     ReflectionStatistics statistics;
+    if (moved_) mesh_.positions = moved_->positions().read<glm::vec3>(0, int64_t(mesh_.positions.size()));
     for (const StarReflector& reflector : reflectors_) {
       solveForCounting(frame, reflector);
       statistics.add(reflector, mesh_, frame, settings_.solver, reflector.reflected.read<glm::vec4>());
@@ -130,12 +140,42 @@ class VertexReflection : public Technique {
   }
 
  private:
+  /// Maps of mirrors and of what is far are made once.
+  void checkMotion(const scene::Scene& scene) const {
+    if (scene.motions.empty()) return;
+    for (const scene::PartMotion& motion : scene.motions)
+      if (scene.materials[scene.parts[motion.part].material].reflects())
+        throw Error(
+            "vertex reflection needs mirrors at rest, and part '" + scene.parts[motion.part].name + "' moves",
+            scene.name, "choose reflections/ray_traced or reflections/ray_hierarchy");
+    if (far_)
+      throw Error("a map of the far surroundings is made once, and parts of the scene move", "surroundings",
+                  "leave out the map");
+  }
+
+  void prepareMotion(frame::Frame& frame) {
+    const scene::Scene& scene = frame.scene();
+    if (scene.motions.empty()) return;
+    std::vector<uint32_t> motionOf(mesh_.positions.size(), 0);
+    for (size_t i = 0; i < scene.motions.size(); ++i) {
+      const scene::Part& part = scene.parts[scene.motions[i].part];
+      const size_t per = static_cast<size_t>(mesh_.perTriangle), first = part.firstTriangle * per;
+      for (size_t t = first; t < first + part.triangleCount * per; ++t)
+        for (int corner = 0; corner < 3; ++corner)
+          motionOf[mesh_.triangles[t][corner]] = static_cast<uint32_t>(i + 1);
+    }
+    moved_.emplace(frame.context(), scene.motions, frame.gpuScene().anchor(), *positions_, nullptr, motionOf);
+    frame.passes().setBytesHeld(kMoveReflectedPass, moved_->bytes());
+  }
+
+  const gl::Buffer& reflectedPositions() const { return moved_ ? moved_->positions() : *positions_; }
+
   void makeVertexArray() {
     glCreateVertexArrays(1, &vertexArray_);
     glVertexArrayAttribFormat(vertexArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribBinding(vertexArray_, 0, 0);
     glEnableVertexArrayAttrib(vertexArray_, 0);
-    glVertexArrayVertexBuffer(vertexArray_, 0, positions_->id(), 0, sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(vertexArray_, 0, reflectedPositions().id(), 0, sizeof(glm::vec3));
     glVertexArrayElementBuffer(vertexArray_, indices_->id());
   }
 
@@ -213,7 +253,7 @@ class VertexReflection : public Technique {
 
   void solve(frame::Frame& frame, const StarReflector& reflector, glm::dvec3 eyeOffset = glm::dvec3(0.0)) {
     configureSecant(*solve_, frame, settings_.solver, reflector, eyeOffset);
-    positions_->bindStorage(kReflectedPositionsBuffer);
+    reflectedPositions().bindStorage(kReflectedPositionsBuffer);
     reflector.reflected.bindStorage(kReflectedVerticesBuffer);
     const auto [ownFirst, ownCount] = reflector.ownVertices;
     solveRange(0, ownFirst);
@@ -313,6 +353,7 @@ class VertexReflection : public Technique {
   ReflectionPicture picture_;
   reflections::ReflectedMesh mesh_;
   std::optional<gl::Buffer> positions_, indices_, sources_;
+  std::optional<frame::MovedVertices> moved_;
   std::vector<StarReflector> reflectors_;
   std::vector<std::unique_ptr<frame::TriangleRanges>> ranges_;
   uint32_t vertexArray_ = 0;
@@ -328,6 +369,7 @@ const RegisteredTechnique<VertexReflection> kVertexReflectionRegistered{
      .source = "Roger 2008, chapter 2 (R-01 to R-12)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = ReflectionStatistics::quantities()}};
 
 }  // namespace
