@@ -148,21 +148,19 @@ Met march(ScreenRay ray, ivec2 own) {
     u = min(u, 1.0);
     const bool behind = behindAt(ray, u);
     if (behind) {
-      // The last pixel of the step, or where the ray went behind the surface.
-      float low = max(before, u - px), high = u;
+      // The last pixel of the step, or the pixel after the place where the ray went behind the surface.
+      float low = max(before, u - px), high = u, last = u;
       if (!wasBehind) {
-        float front = before;
+        low = before;
         for (int i = 0; i < refinements; ++i) {
-          const float middle = 0.5 * (front + high);
+          const float middle = 0.5 * (low + high);
           if (behindAt(ray, middle)) high = middle;
-          else front = middle;
+          else low = middle;
         }
-        low = max(front, high - px);
-        // Without refinements the whole step may have crossed it.
-        if (refinements == 0) low = before;
+        last = min(max(low + px, high), 1.0);
       }
       if (meetsAt(pixelAt(ray.start + high * ray.along), high, ray.depth + low * ray.depthAlong,
-                  ray.depth + high * ray.depthAlong, met)) {
+                  ray.depth + last * ray.depthAlong, met)) {
         met.met = true;
         return met;
       }

@@ -59,7 +59,7 @@ class ScreenSpaceReflections : public Technique {
     const bool second = std::holds_alternative<SecondLayerThickness>(settings_.thickness);
     if (second || std::holds_alternative<BackFaceThickness>(settings_.thickness)) {
       behind_.emplace(frame, frame.sizePx(), std::vector<uint32_t>(frame.gpuScene().triangleCount(), 0U),
-                      false, second ? ViewRaster::Shown::BehindDepth : ViewRaster::Shown::BackFaces);
+                      false, second ? ViewRaster::Shown::FrontsBehindDepth : ViewRaster::Shown::BackFaces);
       frame.passes().setBytesHeld(kBehindPass, behind_->bytes());
     }
     if (environment_) environment_->prepare(frame);

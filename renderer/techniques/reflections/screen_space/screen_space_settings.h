@@ -37,7 +37,7 @@ struct BackFaceThickness {
 struct SecondLayerThickness {
   static constexpr const char *kKind = "second_layer",
                               *kSummary =
-                                  "the same for two layers of surfaces, the second peeled off the first";
+                                  "the same for two layers: what is seen, and behind it the nearest front";
   double depth = 0.02;
   static const SettingsTable<SecondLayerThickness>& table();
 };
