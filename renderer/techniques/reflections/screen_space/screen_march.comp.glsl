@@ -118,6 +118,15 @@ bool meetsAt(ivec2 pixel, float u1, float a, float b, inout Met met) {
   return false;
 }
 
+// What the ray passes is not in the picture: its back, or nothing.
+bool givesUp() {
+#ifdef GIVE_UP
+  return hidden;
+#else
+  return false;
+#endif
+}
+
 ivec2 pixelAt(vec2 place) { return clamp(ivec2(floor(place)), ivec2(0), sizePx - 1); }
 
 #ifdef LINEAR
@@ -165,7 +174,7 @@ Met march(ScreenRay ray, ivec2 own) {
         return met;
       }
     }
-    if (u >= 1.0) return met;
+    if (u >= 1.0 || givesUp()) return met;
     wasBehind = behind;
     before = u;
     u += step;
@@ -201,6 +210,7 @@ Met march(ScreenRay ray, ivec2 own) {
         met.met = true;
         return met;
       }
+      if (givesUp()) return met;
     } else if (min(a, b) < texelFetch(pyramid, cell, level - 1).x) {
       --level;
       continue;
@@ -230,6 +240,8 @@ void main() {
       found = share * vec4(met.colour.rgb, 1.0);
     } else if (cut) {
       fate = kScreenCut;
+    } else if (givesUp()) {
+      fate = kScreenHidden;
     } else if (ray.leaves) {
       fate = kScreenLeft;
     } else if (hidden) {

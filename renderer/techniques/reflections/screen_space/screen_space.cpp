@@ -139,6 +139,7 @@ class ScreenSpaceReflections : public Technique {
     defines["THICKNESS"] = kThicknesses[settings_.thickness.index()];
     if (std::holds_alternative<LinearMarch>(settings_.march)) defines["LINEAR"] = "1";
     if (settings_.light == ScreenLight::Triangle) defines["LIGHT_TRIANGLE"] = "1";
+    if (settings_.behind == Behind::GiveUp) defines["GIVE_UP"] = "1";
     if (std::holds_alternative<NoFallback>(settings_.fallback)) defines["NO_FALLBACK"] = "1";
     return defines;
   }
@@ -209,8 +210,7 @@ const RegisteredTechnique<ScreenSpaceReflections> kScreenSpaceRegistered{
          {"met_share", "Share of rays that meet a surface of the picture", "", Direction::Neither},
          {"fallback_share", "Share of rays that the picture does not answer", "", Direction::LowerIsBetter},
          {"left_share", "Share of rays that leave the picture", "", Direction::Neither},
-         {"hidden_share", "Share of rays that go behind a surface and meet nothing after", "",
-          Direction::Neither},
+         {"hidden_share", "Share of rays that go behind a surface and bring nothing", "", Direction::Neither},
          {"cut_share", "Share of rays for which the most steps are not enough", "",
           Direction::LowerIsBetter}}}};
 

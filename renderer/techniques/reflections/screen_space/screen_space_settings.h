@@ -48,6 +48,12 @@ constexpr EnumNames<ScreenLight, 2> enumNames(ScreenLight) {
   return {{{{ScreenLight::Picture, "picture"}, {ScreenLight::Triangle, "triangle"}}}};
 }
 
+/// What becomes of a ray that has gone behind a surface, where the picture does not show what it passes.
+enum class Behind { Follow, GiveUp };
+constexpr EnumNames<Behind, 2> enumNames(Behind) {
+  return {{{{Behind::Follow, "follow"}, {Behind::GiveUp, "give_up"}}}};
+}
+
 /// What pixels show whose ray the picture does not answer.
 struct BackgroundFallback {
   static constexpr const char *kKind = "background", *kSummary = "the background";
@@ -69,6 +75,7 @@ struct ScreenSpaceSettings {
   int steps = 1024;
   std::variant<ConstantThickness, BackFaceThickness, SecondLayerThickness> thickness;
   ScreenLight light = ScreenLight::Picture;
+  Behind behind = Behind::Follow;
   double fade = 0.05;
   std::variant<BackgroundFallback, NoFallback, EnvironmentFallback> fallback;
   frame::ShadedSetting shading;
