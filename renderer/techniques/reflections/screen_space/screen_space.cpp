@@ -113,15 +113,15 @@ class ScreenSpaceReflections : public Technique {
     }
     const double rays =
         of[kScreenMet] + of[kScreenFree] + of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut];
-    const double each = 1.0 / std::max(rays, 1.0);
+    const double whole = std::max(rays, 1.0);
     return {{"mirror_px", rays},
-            {"steps_per_ray", steps * each},
-            {"on_screen_share", (of[kScreenMet] + of[kScreenFree]) * each},
-            {"met_share", of[kScreenMet] * each},
-            {"fallback_share", (of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut]) * each},
-            {"left_share", of[kScreenLeft] * each},
-            {"hidden_share", of[kScreenHidden] * each},
-            {"cut_share", of[kScreenCut] * each}};
+            {"steps_per_ray", steps / whole},
+            {"on_screen_share", (of[kScreenMet] + of[kScreenFree]) / whole},
+            {"met_share", of[kScreenMet] / whole},
+            {"fallback_share", (of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut]) / whole},
+            {"left_share", of[kScreenLeft] / whole},
+            {"hidden_share", of[kScreenHidden] / whole},
+            {"cut_share", of[kScreenCut] / whole}};
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {
