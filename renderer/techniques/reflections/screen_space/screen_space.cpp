@@ -205,7 +205,7 @@ const RegisteredTechnique<ScreenSpaceReflections> kScreenSpaceRegistered{
      .needs = {"mirrors"},
      .counters = {
          {"mirror_px", "Pixels that see a mirror", "px", Direction::Neither},
-         {"steps_per_ray", "Places of the picture that a ray is looked at", "", Direction::LowerIsBetter},
+         {"steps_per_ray", "Steps per ray", "", Direction::LowerIsBetter},
          {"on_screen_share", "Share of rays that the picture answers", "", Direction::HigherIsBetter},
          {"met_share", "Share of rays that meet a surface of the picture", "", Direction::Neither},
          {"fallback_share", "Share of rays that the picture does not answer", "", Direction::LowerIsBetter},
