@@ -325,6 +325,29 @@ TEST_F(ScreenSpace, ThicknessLetsRaysPassBehind) {
   EXPECT_LT(layers, thin);
 }
 
+/// Rays that go behind the bar and are given up bring nothing; all others bring what they did.
+TEST_F(ScreenSpace, RaysThatAreGivenUpBringNothing) {
+  scene::Scene scene = wallBehindFloor(4);
+  scene::addPart(scene, "bar", scene::box({-1.5, 0.58, 0.8}, {1.5, 0.64, 0.86}), {0.1F, 0.9F, 0.1F});
+  for (const char* march : {"hierarchical", "linear"}) {
+    const auto of = [&](const char* behind) {
+      const Given given = {
+          {"march", std::string(march)}, {"thickness.depth", 0.005}, {"behind", std::string(behind)}};
+      return render(scene, "reflections/screen_space", flat(given), kSizePx, true);
+    };
+    const Rendered followed = of("follow"), givenUp = of("give_up");
+    size_t lost = 0;
+    for (size_t i = 0; i < followed.product.pixels(); ++i) {
+      const auto at = [&](const Rendered& of, size_t c) { return of.product.data[4 * i + c]; };
+      if (at(followed, 0) == at(givenUp, 0) && at(followed, 1) == at(givenUp, 1)) continue;
+      ++lost;
+      for (size_t c = 0; c < 3; ++c) ASSERT_EQ(at(givenUp, c), 0.0F) << march << " pixel " << i;
+    }
+    EXPECT_GT(lost, 100U) << march;
+    EXPECT_GT(givenUp.counter("hidden_share"), followed.counter("hidden_share")) << march;
+  }
+}
+
 /// Where rays have met something it stays; elsewhere is the environment map's light.
 TEST_F(ScreenSpace, TheEnvironmentMapIsUnderneath) {
   const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{12}}});
