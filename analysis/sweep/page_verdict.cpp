@@ -63,8 +63,9 @@ std::string renderWinner(const Sweep& sweep, const Panel& panel, const TradeOffV
 std::string renderMatrix(const Sweep& sweep) {
   const std::vector<LevelColumn> columns = columnsOf(sweep);
   std::string out = fmt::format(
-      "<div class=\"scroll\"><table class=\"verdict\"><caption>{} setting for the {} that is allowed, in "
-      "multiples of the panel's least. ≈: not told apart from it in {}.</caption>\n<thead><tr><th "
+      "<div class=\"scroll\"><table class=\"verdict\"><caption>{} setting whose error ({}) is within a "
+      "multiple of "
+      "the panel's least. ≈: not told apart from it in {}.</caption>\n<thead><tr><th "
       "scope=\"col\">{}</th>",
       sweep.xIsTime ? "Fastest" : "Cheapest", escapeHtml(sweep.y.title), sweep.xIsTime ? "time" : "cost",
       escapeHtml(sweep.names.heading(sweep.panelName)));

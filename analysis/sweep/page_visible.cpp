@@ -74,8 +74,8 @@ std::string renderVisible(const Sweep& sweep) {
       visible.displays.empty() ? "" : ", on the display " + escapeHtml(visible.displays));
   out += renderSentences(sweep, visible);
   out += fmt::format(
-      "<div class=\"scroll\"><table class=\"verdict visible\"><caption>Cheapest setting below 1 JND. What "
-      "it costs is its {}. ≈: below 1 JND too and not told apart from it in {}.</caption>\n<thead><tr><th "
+      "<div class=\"scroll\"><table class=\"verdict visible\"><caption>Cheapest setting below 1 JND. "
+      "Cost: {}. ≈: below 1 JND too and not told apart from it in {}.</caption>\n<thead><tr><th "
       "scope=\"col\">{}</th>",
       escapeHtml(visible.cost.title), visible.cost.unit == "ms" ? "time" : "cost",
       escapeHtml(sweep.names.heading(sweep.panelName)));

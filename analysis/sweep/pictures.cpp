@@ -180,7 +180,7 @@ PictureRow makeRow(const Sweep& sweep, const Chosen& chosen, const Cutter& cutte
     row.width = window.width;
     row.height = window.height;
     row.window = window.width == window.fullWidth && window.height == window.fullHeight
-                     ? fmt::format("all {}×{} pixels", window.width, window.height)
+                     ? fmt::format("All {}×{} pixels", window.width, window.height)
                      : fmt::format("{}×{} pixels from ({}, {}) of {}×{}", window.width, window.height,
                                    window.x, window.y, window.fullWidth, window.fullHeight);
     row.pictures.push_back(cutter.cut(product, window, "product"));
@@ -196,10 +196,12 @@ PictureRow makeRow(const Sweep& sweep, const Chosen& chosen, const Cutter& cutte
                 ") is shown as the sweep wrote it; the store names no scale for it.");
     }
     for (const store::Artefact& artefact : cell.run.artefacts)
-      if (artefact.kind.starts_with(kViewPrefix) && artefact.kind.ends_with("_png"))
-        row.pictures.push_back(cutter.cut(
-            cutter.load(artefact), window,
-            artefact.kind.substr(kViewPrefix.size(), artefact.kind.size() - kViewPrefix.size() - 4)));
+      if (artefact.kind.starts_with(kViewPrefix) && artefact.kind.ends_with("_png")) {
+        std::string title =
+            artefact.kind.substr(kViewPrefix.size(), artefact.kind.size() - kViewPrefix.size() - 4);
+        std::ranges::replace(title, '_', ' ');
+        row.pictures.push_back(cutter.cut(cutter.load(artefact), window, title));
+      }
   } catch (const Error& error) {
     addNote(std::string("A picture cannot be shown: ") + error.what() + ".");
   }

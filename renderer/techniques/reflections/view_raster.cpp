@@ -16,8 +16,7 @@ gl::ShaderDefines viewDefines(bool masked, ViewRaster::Shown shown) {
   gl::ShaderDefines defines;
   if (masked) defines["MASKED"] = "1";
   if (shown == Shown::BackFaces) defines["BACK_FACES"] = "1";
-  if (shown == Shown::BehindDepth || shown == Shown::FrontsBehindDepth) defines["BEHIND_DEPTH"] = "1";
-  if (shown == Shown::FrontsBehindDepth) defines["FRONT_FACES"] = "1";
+  if (shown == Shown::FrontsBehindDepth) defines["FRONTS_BEHIND_DEPTH"] = "1";
   return defines;
 }
 
@@ -51,6 +50,11 @@ void ViewRaster::draw(const frame::Frame& frame, const glm::mat4& anchorToClip, 
   program_.use();
   program_.set("anchorToClip", anchorToClip);
   program_.set("clipPlane", clipPlane);
+  // Views of cube maps are left-handed, and turn windings round.
+  const glm::mat4 rows = glm::transpose(anchorToClip);
+  const bool leftHanded =
+      glm::dot(glm::cross(glm::vec3(rows[0]), glm::vec3(rows[1])), glm::vec3(rows[3])) > 0.0F;
+  program_.set("leftHanded", leftHanded ? 1 : 0);
   program_.set("leftOut", leftOut);
   program_.set("wanted", wanted);
   groups_.bindStorage(kViewGroupsBuffer);

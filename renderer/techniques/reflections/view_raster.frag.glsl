@@ -6,11 +6,12 @@ flat in uint first;
 layout(location = 0) out uint triangle;
 layout(std430, binding = kViewGroupsBuffer) readonly buffer Groups { uint groupOf[]; };
 uniform uint leftOut;
+uniform bool leftHanded;
 #ifdef MASKED
 layout(binding = kViewImageUnit) uniform usampler2D mask;
 uniform uint wanted;
 #endif
-#ifdef BEHIND_DEPTH
+#ifdef FRONTS_BEHIND_DEPTH
 layout(binding = kViewImageUnit) uniform sampler2D before;
 #endif
 
@@ -18,12 +19,10 @@ void main() {
   triangle = first + uint(gl_PrimitiveID);
   if (groupOf[triangle] == leftOut) discard;
 #ifdef BACK_FACES
-  if (gl_FrontFacing) discard;
+  if (gl_FrontFacing != leftHanded) discard;
 #endif
-#ifdef FRONT_FACES
-  if (!gl_FrontFacing) discard;
-#endif
-#ifdef BEHIND_DEPTH
+#ifdef FRONTS_BEHIND_DEPTH
+  if (gl_FrontFacing == leftHanded) discard;
   // More than rounding behind: not the surface itself, drawn again.
   if (gl_FragCoord.z >= texelFetch(before, ivec2(gl_FragCoord.xy), 0).x * (1.0 - 1.0e-5)) discard;
 #endif

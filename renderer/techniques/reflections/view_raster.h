@@ -16,8 +16,7 @@ class ViewRaster {
   enum class Shown {
     Nearest,
     BackFaces,         ///< the nearest triangle that turns its back to the view, by its winding
-    BehindDepth,       ///< the nearest behind a depth
-    FrontsBehindDepth  ///< of those that turn their front to the view
+    FrontsBehindDepth  ///< the nearest behind a depth of those that turn their front to the view
   };
   /// `groups`: a number for each of the scene's triangles; draw() can leave out those of one number.
   /// `masked`: draw() draws only where a mask has a certain value.

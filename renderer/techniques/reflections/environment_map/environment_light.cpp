@@ -115,7 +115,7 @@ std::vector<Quantity> EnvironmentLight::counters() {
   return {{"mirror_px", "Pixels that see a mirror", "px", Direction::Neither},
           {"crack_px", "Pixels whose ray slips behind a border in the map", "px", Direction::LowerIsBetter},
           {"missed_px", "Pixels whose ray meets nothing in the map", "px", Direction::LowerIsBetter},
-          {"triangles_drawn", "Triangles drawn into the map", "", Direction::LowerIsBetter}};
+          {"triangles_drawn", "Triangles drawn in further views", "", Direction::LowerIsBetter}};
 }
 
 void EnvironmentLight::drawFace(frame::Frame& frame, int face) {

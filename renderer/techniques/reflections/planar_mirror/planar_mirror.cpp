@@ -167,7 +167,7 @@ const RegisteredTechnique<PlanarMirror> kPlanarMirrorRegistered{
      .needs = {"mirrors"},
      .counters = {{"mirror_planes", "Planes of mirrors", "", Direction::Neither},
                   {"mirrored_views", "Mirrored views drawn", "", Direction::LowerIsBetter},
-                  {"triangles_drawn", "Triangles drawn in mirrored views", "", Direction::LowerIsBetter}}}};
+                  {"triangles_drawn", "Triangles drawn in further views", "", Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -118,6 +118,15 @@ bool meetsAt(ivec2 pixel, float u1, float a, float b, inout Met met) {
   return false;
 }
 
+// What the ray passes is not in the picture: its back, or nothing.
+bool givesUp() {
+#ifdef GIVE_UP
+  return hidden;
+#else
+  return false;
+#endif
+}
+
 ivec2 pixelAt(vec2 place) { return clamp(ivec2(floor(place)), ivec2(0), sizePx - 1); }
 
 #ifdef LINEAR
@@ -148,26 +157,24 @@ Met march(ScreenRay ray, ivec2 own) {
     u = min(u, 1.0);
     const bool behind = behindAt(ray, u);
     if (behind) {
-      // The last pixel of the step, or where the ray went behind the surface.
-      float low = max(before, u - px), high = u;
+      // The last pixel of the step, or the pixel after the place where the ray went behind the surface.
+      float low = max(before, u - px), high = u, last = u;
       if (!wasBehind) {
-        float front = before;
+        low = before;
         for (int i = 0; i < refinements; ++i) {
-          const float middle = 0.5 * (front + high);
+          const float middle = 0.5 * (low + high);
           if (behindAt(ray, middle)) high = middle;
-          else front = middle;
+          else low = middle;
         }
-        low = max(front, high - px);
-        // Without refinements the whole step may have crossed it.
-        if (refinements == 0) low = before;
+        last = min(max(low + px, high), 1.0);
       }
       if (meetsAt(pixelAt(ray.start + high * ray.along), high, ray.depth + low * ray.depthAlong,
-                  ray.depth + high * ray.depthAlong, met)) {
+                  ray.depth + last * ray.depthAlong, met)) {
         met.met = true;
         return met;
       }
     }
-    if (u >= 1.0) return met;
+    if (u >= 1.0 || givesUp()) return met;
     wasBehind = behind;
     before = u;
     u += step;
@@ -203,6 +210,7 @@ Met march(ScreenRay ray, ivec2 own) {
         met.met = true;
         return met;
       }
+      if (givesUp()) return met;
     } else if (min(a, b) < texelFetch(pyramid, cell, level - 1).x) {
       --level;
       continue;
@@ -232,6 +240,8 @@ void main() {
       found = share * vec4(met.colour.rgb, 1.0);
     } else if (cut) {
       fate = kScreenCut;
+    } else if (givesUp()) {
+      fate = kScreenHidden;
     } else if (ray.leaves) {
       fate = kScreenLeft;
     } else if (hidden) {

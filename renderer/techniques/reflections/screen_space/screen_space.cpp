@@ -59,7 +59,7 @@ class ScreenSpaceReflections : public Technique {
     const bool second = std::holds_alternative<SecondLayerThickness>(settings_.thickness);
     if (second || std::holds_alternative<BackFaceThickness>(settings_.thickness)) {
       behind_.emplace(frame, frame.sizePx(), std::vector<uint32_t>(frame.gpuScene().triangleCount(), 0U),
-                      false, second ? ViewRaster::Shown::BehindDepth : ViewRaster::Shown::BackFaces);
+                      false, second ? ViewRaster::Shown::FrontsBehindDepth : ViewRaster::Shown::BackFaces);
       frame.passes().setBytesHeld(kBehindPass, behind_->bytes());
     }
     if (environment_) environment_->prepare(frame);
@@ -113,15 +113,15 @@ class ScreenSpaceReflections : public Technique {
     }
     const double rays =
         of[kScreenMet] + of[kScreenFree] + of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut];
-    const double each = 1.0 / std::max(rays, 1.0);
+    const double whole = std::max(rays, 1.0);
     return {{"mirror_px", rays},
-            {"steps_per_ray", steps * each},
-            {"on_screen_share", (of[kScreenMet] + of[kScreenFree]) * each},
-            {"met_share", of[kScreenMet] * each},
-            {"fallback_share", (of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut]) * each},
-            {"left_share", of[kScreenLeft] * each},
-            {"hidden_share", of[kScreenHidden] * each},
-            {"cut_share", of[kScreenCut] * each}};
+            {"steps_per_ray", steps / whole},
+            {"on_screen_share", (of[kScreenMet] + of[kScreenFree]) / whole},
+            {"met_share", of[kScreenMet] / whole},
+            {"fallback_share", (of[kScreenHidden] + of[kScreenLeft] + of[kScreenCut]) / whole},
+            {"left_share", of[kScreenLeft] / whole},
+            {"hidden_share", of[kScreenHidden] / whole},
+            {"cut_share", of[kScreenCut] / whole}};
   }
 
   std::map<std::string, const gl::Texture*> debugViews() const override {
@@ -139,6 +139,7 @@ class ScreenSpaceReflections : public Technique {
     defines["THICKNESS"] = kThicknesses[settings_.thickness.index()];
     if (std::holds_alternative<LinearMarch>(settings_.march)) defines["LINEAR"] = "1";
     if (settings_.light == ScreenLight::Triangle) defines["LIGHT_TRIANGLE"] = "1";
+    if (settings_.behind == Behind::GiveUp) defines["GIVE_UP"] = "1";
     if (std::holds_alternative<NoFallback>(settings_.fallback)) defines["NO_FALLBACK"] = "1";
     return defines;
   }
@@ -204,13 +205,12 @@ const RegisteredTechnique<ScreenSpaceReflections> kScreenSpaceRegistered{
      .needs = {"mirrors"},
      .counters = {
          {"mirror_px", "Pixels that see a mirror", "px", Direction::Neither},
-         {"steps_per_ray", "Places of the picture that a ray is looked at", "", Direction::LowerIsBetter},
+         {"steps_per_ray", "Steps per ray", "", Direction::LowerIsBetter},
          {"on_screen_share", "Share of rays that the picture answers", "", Direction::HigherIsBetter},
          {"met_share", "Share of rays that meet a surface of the picture", "", Direction::Neither},
          {"fallback_share", "Share of rays that the picture does not answer", "", Direction::LowerIsBetter},
          {"left_share", "Share of rays that leave the picture", "", Direction::Neither},
-         {"hidden_share", "Share of rays that go behind a surface and meet nothing after", "",
-          Direction::Neither},
+         {"hidden_share", "Share of rays that go behind a surface and bring nothing", "", Direction::Neither},
          {"cut_share", "Share of rays for which the most steps are not enough", "",
           Direction::LowerIsBetter}}}};
 

@@ -90,6 +90,8 @@ const SettingsTable<ScreenSpaceSettings>& ScreenSpaceSettings::table() {
       {&S::thickness, "thickness", "How far surfaces reach behind what is seen of them"},
       {&S::light, "light",
        "Of a pixel as the picture shows it, or of the pixel's triangle where the ray meets it, if it does"},
+      {&S::behind, "behind",
+       "Whether a ray is followed on where it goes behind a surface, or left to the fallback there"},
       {&S::fade,
        "fade",
        {0.0, 0.5},

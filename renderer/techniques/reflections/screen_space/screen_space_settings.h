@@ -37,7 +37,7 @@ struct BackFaceThickness {
 struct SecondLayerThickness {
   static constexpr const char *kKind = "second_layer",
                               *kSummary =
-                                  "the same for two layers of surfaces, the second peeled off the first";
+                                  "the same for two layers: what is seen, and behind it the nearest front";
   double depth = 0.02;
   static const SettingsTable<SecondLayerThickness>& table();
 };
@@ -46,6 +46,12 @@ struct SecondLayerThickness {
 enum class ScreenLight { Picture, Triangle };
 constexpr EnumNames<ScreenLight, 2> enumNames(ScreenLight) {
   return {{{{ScreenLight::Picture, "picture"}, {ScreenLight::Triangle, "triangle"}}}};
+}
+
+/// What becomes of a ray that has gone behind a surface, where the picture does not show what it passes.
+enum class Behind { Follow, GiveUp };
+constexpr EnumNames<Behind, 2> enumNames(Behind) {
+  return {{{{Behind::Follow, "follow"}, {Behind::GiveUp, "give_up"}}}};
 }
 
 /// What pixels show whose ray the picture does not answer.
@@ -69,6 +75,7 @@ struct ScreenSpaceSettings {
   int steps = 1024;
   std::variant<ConstantThickness, BackFaceThickness, SecondLayerThickness> thickness;
   ScreenLight light = ScreenLight::Picture;
+  Behind behind = Behind::Follow;
   double fade = 0.05;
   std::variant<BackgroundFallback, NoFallback, EnvironmentFallback> fallback;
   frame::ShadedSetting shading;
