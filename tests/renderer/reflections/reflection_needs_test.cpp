@@ -126,7 +126,10 @@ TEST_F(ReflectionNeedsTest, TheChoiceIsTheCheapestOfItsOwnTableWithinTheTarget) 
       if (one.error.value() * (1.0 + margin) <= target &&
           (!cheapest || one.time.medianMs < cheapest->time.medianMs))
         cheapest = &one;
-      if (!mostExact || one.error.value() < mostExact->error.value()) mostExact = &one;
+      // Of equal errors, the cheaper.
+      if (!mostExact || std::pair(one.error.value(), one.time.medianMs) <
+                            std::pair(mostExact->error.value(), mostExact->time.medianMs))
+        mostExact = &one;
     }
     EXPECT_EQ(found.verdict.withinTarget, cheapest != nullptr);
     EXPECT_EQ(describe(found.chosen().candidate), describe((cheapest ? cheapest : mostExact)->candidate))

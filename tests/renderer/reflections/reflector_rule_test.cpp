@@ -74,12 +74,18 @@ TEST_F(ReflectorFactsTest, ASphereIsConvexSmoothAndNoPlane) {
   scene::Scene scene = withMirror(scene::sphere({1, 2, 3}, 2.0, 12));
   addPart(scene, "card", scene::card({1, 9, 3}, {1, 0, 0}, {0, 0, 1}), glm::vec3(0.5F));
   const ReflectorFacts facts = factsOf(scene);
-  EXPECT_EQ(facts.planes, 0);
+  EXPECT_EQ(facts.planes, 8 * 12 * 12) << "facets, as it has no normals";
   EXPECT_EQ(facts.concaveShare, 0.0);
   EXPECT_EQ(facts.creasedShare, 0.0);
   EXPECT_TRUE(facts.star);
   EXPECT_NEAR(facts.surroundings, 3.5, 1e-9);
   EXPECT_EQ(facts.areaShare, 1.0);
+  scene::Mesh smooth = scene::sphere({1, 2, 3}, 2.0, 12);
+  smooth.normals.clear();
+  for (const glm::dvec3& p : smooth.positions)
+    smooth.normals.emplace_back(glm::normalize(p - glm::dvec3(1, 2, 3)));
+  EXPECT_EQ(factsOf(withMirror(smooth)).planes, 0);
+  EXPECT_EQ(factsOf(withMirror(smooth), 0.001).creasedShare, 0.0);
 }
 
 TEST_F(ReflectorFactsTest, NothingAroundIsInfinitelyFar) {
