@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "perception/metrics/error_map.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
@@ -135,8 +136,10 @@ class ReflectionNeeds : public Technique {
     const auto* byRule = std::get_if<FollowRule>(&settings_.decide);
     const ReflectorRule rule = byRule ? byRule->rule : ReflectorRule{};
     facts_ = measureReflectors(frame.scene(), rule.creaseDeg);
-    moving_ = settings_.motion == SceneMotion::AsBuilt ? frame.scene().traits().count("moving_surfaces") > 0
-                                                       : settings_.motion == SceneMotion::Moving;
+    const std::set<std::string> traits = frame.scene().traits();
+    moving_ = settings_.motion == SceneMotion::AsBuilt
+                  ? traits.count("moving_surfaces") + traits.count("moving_parts") > 0
+                  : settings_.motion == SceneMotion::Moving;
     verdict_ = decideByRule(facts_, moving_, rule);
     double glossRad = 0.0;
     for (const ReflectorFacts& facts : facts_) glossRad = std::max(glossRad, facts.glossRad);
