@@ -21,10 +21,11 @@ struct Configuration {
 };
 
 struct Timing {
-  int warmup = 8;   ///< frames rendered and discarded before each round
-  int frames = 64;  ///< timed frames in all, shared evenly among the rounds
-  int rounds = 3;   ///< interleaved rounds over the runs of a batch
-  int batch = 8;    ///< runs whose rounds are interleaved
+  int warmup = 8;             ///< frames rendered and discarded before each round
+  int frames = 64;            ///< timed frames in all, shared evenly among the rounds
+  int rounds = 3;             ///< interleaved rounds over the runs of a batch
+  int batch = 8;              ///< runs whose rounds are interleaved
+  bool firstPicture = false;  ///< also time the first picture, in a context of its own
   static const SettingsTable<Timing>& table();
 };
 

@@ -12,6 +12,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/first_picture.h"
 #include "experiments/frame_path.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
@@ -229,6 +230,7 @@ class GlExecutor : public Executor {
     SharedScene& on = sceneOf(plan);
     run.outcome.sceneFacts = on.facts;
     requireTraits(*run.info, on.onGpu.scene);
+    if (plan.timing.firstPicture) timeFirst(run, on);
     prepare(run, on);
     if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
       run.outcome.sceneFacts["remarks"] = remarks;
@@ -317,6 +319,15 @@ class GlExecutor : public Executor {
     if (!needed) return nullptr;
     if (!on.surfaces) on.surfaces.emplace(*context_, on.onGpu, on.sizePx);
     return &*on.surfaces;
+  }
+
+  void timeFirst(LiveRun& run, const SharedScene& on) {
+    const Stopwatch watch(seconds_["rendering"]);
+    clock_.wake();
+    const FirstPicture first = timeFirstPicture(*context_, on.onGpu.scene, on.sizePx, run.plan->technique);
+    run.outcome.measurements.push_back(measured("first_picture_ms", first.allMs));
+    run.outcome.measurements.push_back(measured("first_picture_compile_ms", first.compileMs));
+    run.outcome.measurements.push_back(measured("first_picture_upload_ms", first.uploadMs));
   }
 
   void prepare(LiveRun& run, const SharedScene& on) {

@@ -8,7 +8,9 @@ const SettingsTable<Timing>& Timing::table() {
       {&Timing::warmup, "warmup", {0, 10000}, "frames", "Frames discarded before each round"},
       {&Timing::frames, "frames", {1, 100000}, "frames", "Timed frames in all"},
       {&Timing::rounds, "rounds", {1, 1000}, "", "Interleaved rounds"},
-      {&Timing::batch, "batch", {1, 256}, "runs", "Runs whose rounds are interleaved"}};
+      {&Timing::batch, "batch", {1, 256}, "runs", "Runs whose rounds are interleaved"},
+      {&Timing::firstPicture, "first_picture",
+       "Also time the way from an empty context to the first picture, once a run"}};
   return kTable;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "renderer/techniques/soft_shadows/scene_needs/needs_record.h"
+#include "renderer/techniques/scene_needs/needs_record.h"
 
 namespace limen::techniques {
 namespace {
@@ -136,8 +136,7 @@ TEST(SceneNeedsRecord, SaysWhatFullSizeMadeOfTheChoice) {
 
   found.target = RmseTarget{0.001};
   found.verdict = decide(found.tried, 0.001);
-  EXPECT_THAT(remarksOn(found),
-              testing::Contains(testing::HasSubstr("the most exact one was chosen")));
+  EXPECT_THAT(remarksOn(found), testing::Contains(testing::HasSubstr("the most exact one was chosen")));
   EXPECT_EQ(counter("candidates_within_target"), 0.0);
 }
 
@@ -150,8 +149,9 @@ TEST(SceneNeedsRecord, SaysWhichDisplayJndAreFor) {
   found.verdict = decide(found.tried, 1.0);
   found.check.error.meanSquare = 0.6 * 0.6;
   const std::vector<std::string> remarks = remarksOn(found);
-  EXPECT_THAT(remarks, testing::Contains("1 of 2 candidates stay within the target, p95 of JND on desktop_24 1: "
-                                         "the cheapest of them was chosen"));
+  EXPECT_THAT(remarks,
+              testing::Contains("1 of 2 candidates stay within the target, p95 of JND on desktop_24 1: "
+                                "the cheapest of them was chosen"));
   EXPECT_THAT(remarks, testing::Contains("not beaten in time and p95 of JND on desktop_24: 2 ms, 0.5: hard"));
   std::vector<std::string> declared;
   for (const Quantity& one : needsQuantities()) declared.push_back(one.name);
@@ -167,7 +167,7 @@ class SceneNeedsErrors : public testing::Test {
 
   /// References of a visibility of 1/2 everywhere, each the mean of `samples` rays that hit or miss.
   ReferencePair references(int samples) {
-    ReferencePair out{Image(kSide, kSide, 1), Image(kSide, kSide, 1), Image(kSide, kSide, 4, 1.0F)};
+    ReferencePair out{Image(kSide, kSide, 1), Image(kSide, kSide, 1), Image(kSide, kSide, 1, 1.0F)};
     std::binomial_distribution<int> hits(samples, 0.5);
     for (Image* image : {&out.first, &out.second})
       for (float& value : image->data)
@@ -207,8 +207,8 @@ TEST_F(SceneNeedsErrors, TheReferencesNoiseIsRemoved) {
 }
 
 TEST_F(SceneNeedsErrors, OnlySurfacesCount) {
-  ReferencePair truth{Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F), Image(2, 1, 4, 1.0F)};
-  truth.receivers.at(1, 0, 3) = -1.0F;
+  ReferencePair truth{Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F)};
+  truth.mask.at(1, 0) = 0.0F;
   Image product(2, 1, 1, 0.75F);
   product.at(1, 0) = 0.0F;
   EXPECT_DOUBLE_EQ(estimateError(product, truth).value(), 0.25);
@@ -217,7 +217,7 @@ TEST_F(SceneNeedsErrors, OnlySurfacesCount) {
 }
 
 TEST_F(SceneNeedsErrors, WhatIsNotFiniteIsWrongByTheWholeRange) {
-  const ReferencePair truth{Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F), Image(2, 1, 4, 1.0F)};
+  const ReferencePair truth{Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F), Image(2, 1, 1, 1.0F)};
   Image product(2, 1, 1, 1.0F);
   product.at(0, 0) = NAN;
   EXPECT_DOUBLE_EQ(estimateError(product, truth).meanSquare, 0.5);
@@ -226,7 +226,7 @@ TEST_F(SceneNeedsErrors, WhatIsNotFiniteIsWrongByTheWholeRange) {
 TEST_F(SceneNeedsErrors, LimitsHoldTheErrorOfAllPixels) {
   // Errors of 0.1 in one pixel of ten: a mean square of 1e-3. Small pictures of 400 of them miss it by more
   // than two standard errors in 5 % of the cases, or somewhat more as their number is far from normal.
-  const ReferencePair truth{Image(20, 20, 1, 1.0F), Image(20, 20, 1, 1.0F), Image(20, 20, 4, 1.0F)};
+  const ReferencePair truth{Image(20, 20, 1, 1.0F), Image(20, 20, 1, 1.0F), Image(20, 20, 1, 1.0F)};
   std::bernoulli_distribution wrong(0.1);
   int held = 0;
   for (int round = 0; round < 500; ++round) {

@@ -9,10 +9,10 @@
 #include <fstream>
 #include <set>
 
-#include "renderer/techniques/soft_shadows/scene_needs/needs.h"
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/frame/shaded.h"
+#include "renderer/techniques/soft_shadows/scene_needs/shadow_candidates.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -62,7 +62,7 @@ class SceneNeedsTest : public TechniqueTest {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
     PlaceClock clock(candidates);
-    return findNeeds(frame, candidates, options, clock);
+    return findNeeds(frame, candidates, shadowSubject(), options, clock);
   }
 
   static void expectNothingBeats(const SceneNeedsFound& found) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
+#include "renderer/techniques/soft_shadows/scene_needs/shadow_candidates.h"
 
 namespace limen::techniques {
 namespace {

@@ -10,8 +10,9 @@
 #include <optional>
 
 #include "perception/metrics/error_map.h"
+#include "renderer/techniques/scene_needs/needs_record.h"
 #include "renderer/techniques/soft_shadows/bitmask/mask_gathering.h"
-#include "renderer/techniques/soft_shadows/scene_needs/needs_record.h"
+#include "renderer/techniques/soft_shadows/scene_needs/shadow_candidates.h"
 #include "renderer/techniques/soft_shadows/search_technique.h"
 #include "renderer/techniques/soft_shadows/visibility_technique.h"
 
@@ -73,7 +74,7 @@ class SceneNeeds : public Technique {
   void prepare(frame::Frame& frame) override {
     FrameClock clock(frame, settings_.timing);
     const std::vector<Candidate> candidates = settings_.listed();
-    found_ = findNeeds(frame, candidates,
+    found_ = findNeeds(frame, candidates, shadowSubject(),
                        {.target = settings_.target,
                         .picturePx = settings_.picturePx,
                         .reference = settings_.reference,

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
-#include "renderer/techniques/soft_shadows/scene_needs/error_estimate.h"
+#include "renderer/techniques/scene_needs/candidate.h"
+#include "renderer/techniques/scene_needs/error_estimate.h"
 
 namespace limen::techniques {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/frame/frame.h"
-#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
+#include "renderer/techniques/scene_needs/candidate.h"
 
 namespace limen::techniques {
 
@@ -30,7 +30,10 @@ struct CandidateTiming {
 /// candidates get fewer frames: no more are rendered after half a second.
 class FrameClock : public CandidateClock {
  public:
-  FrameClock(frame::Frame& frame, const CandidateTiming& timing) : frame_(frame), timing_(timing) {}
+  /// `added`: counters [ms] that are added to every frame of the candidates that have them, as what a scene
+  /// that moves would cost anew in each.
+  FrameClock(frame::Frame& frame, const CandidateTiming& timing, std::vector<std::string> added = {})
+      : frame_(frame), timing_(timing), added_(std::move(added)) {}
   std::vector<double> framesMs(const Candidate& candidate) override;
   std::string label() const override;
 
@@ -39,6 +42,7 @@ class FrameClock : public CandidateClock {
 
   frame::Frame& frame_;
   CandidateTiming timing_;
+  std::vector<std::string> added_;
   bool awake_ = false;
 };
 

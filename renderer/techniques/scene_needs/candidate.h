@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/scene.h"
-#include "renderer/techniques/soft_shadows/map_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -26,14 +26,18 @@ std::string describe(const Candidate& candidate);
 /// Why it cannot be tried: settings that it does not take, a trait that the scene lacks; "": it can.
 std::string obstacleTo(const Candidate& candidate, const scene::Scene& scene);
 
-/// Candidates of all families, from a hard shadow to hundreds of maps: shadow maps filtered, with occluders
-/// backprojected by their areas and by bitmasks, in the form of Schwarz 2009 and in those that replaced it,
-/// over budgets, occluders, structures, passes and maps. All read maps of `map`; a few that aim at small
-/// errors read maps of twice its resolution. The most expensive come last.
-std::vector<Candidate> builtInCandidates(const MapSettings& map);
-
-/// Candidates listed in a YAML file, as the techniques of a descriptor are; lists are axes. `map` applies
-/// where an entry does not set it. Throws Error naming file and line.
-std::vector<Candidate> readCandidates(const std::string& path, const MapSettings& map);
+/// What a file may list.
+struct CandidateFileRules {
+  ProductKind product = ProductKind::Visibility;
+  std::string chooser;  ///< the technique that chooses among them, which is none of them
+  std::string example;  ///< of an entry
+  /// Gives what an entry leaves open; null: nothing.
+  std::function<void(Candidate&)> complete = {};
+};
+/// Candidates listed in a YAML file, as the techniques of a descriptor are; lists are axes. Throws Error
+/// naming file and line.
+std::vector<Candidate> readCandidateFile(const std::string& path, const CandidateFileRules& rules);
+/// Whether its technique declares a parameter of this path.
+bool takes(const TechniqueInfo& info, const std::string& path);
 
 }  // namespace limen::techniques

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/target.h"
+#include "renderer/techniques/scene_needs/target.h"
 
 namespace limen::techniques {
 
@@ -13,7 +13,7 @@ const SettingsTable<JndTarget>& JndTarget::table() {
   using S = JndTarget;
   static const SettingsTable<S> kTable = {
       {&S::value, "value", {0.0, 100.0}, "JND", "Largest visible difference that is good enough"},
-      {&S::figure, "figure", "Over the pixels with surfaces: their median, 95th percentile or largest"},
+      {&S::figure, "figure", "Over the pixels that are compared: their median, 95th percentile or largest"},
       included(&S::viewing)};
   return kTable;
 }

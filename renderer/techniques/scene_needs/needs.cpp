@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/needs.h"
+#include "renderer/techniques/scene_needs/needs.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "experiments/base/error.h"
-#include "renderer/frame/g_buffer.h"
-#include "renderer/techniques/soft_shadows/scene_needs/jnd_error.h"
+#include "renderer/techniques/scene_needs/jnd_error.h"
 
 namespace limen::techniques {
 namespace {
@@ -39,14 +38,13 @@ class Renderings {
   }
 
   /// Seeds differ in all pairs, so that no two comparisons share their noise.
-  ReferencePair references(int samples, int64_t firstSeed) const {
-    const auto traced = [&](int64_t seed) {
-      return render({"soft_shadows/ray_traced", {{"samples", int64_t{samples}}, {"seed", seed}}});
-    };
-    ReferencePair out{traced(firstSeed), traced(firstSeed + 1), {}};
+  ReferencePair references(const NeedsSubject& subject, int samples, int64_t firstSeed) const {
+    const auto sampled = [&](int64_t seed) { return render(subject.reference(samples, seed)); };
+    ReferencePair out{sampled(firstSeed), {}, {}};
+    out.second = subject.exact ? out.first : sampled(firstSeed + 1);
     frame::Frame frame = frameOf();
     frame.begin();
-    out.receivers = frame.get<frame::Receivers>().texture().read();
+    out.mask = subject.mask(frame);
     frame.end();
     return out;
   }
@@ -60,20 +58,34 @@ class Renderings {
   glm::ivec2 sizePx_;
 };
 
+/// Where and against what candidates are compared.
+struct ComparedAt {
+  glm::ivec2 sizePx{0};
+  int samples = 0;
+  int64_t firstSeed = 1;
+};
+
+/// What a search has tried so far.
+struct Trials {
+  std::vector<Tried> tried;
+  std::vector<std::string> notTried;
+  double referenceNoise = 0.0;
+};
+
 class Search {
  public:
-  Search(frame::Frame& frame, const NeedsOptions& options, CandidateClock& clock, SceneNeedsFound& out)
-      : frame_(frame), options_(options), clock_(clock), out_(out) {}
+  Search(frame::Frame& frame, const NeedsSubject& subject, const NeedsOptions& options, CandidateClock& clock,
+         Trials& out)
+      : frame_(frame), subject_(subject), options_(options), clock_(clock), out_(out) {}
 
   /// Errors and times, then second times of those that decide, backwards, so that a drifting clock rate
   /// affects all alike.
-  void run(std::span<const Candidate> candidates) {
+  void run(std::span<const Candidate> candidates, const ComparedAt& at) {
     const auto* jnd = std::get_if<JndTarget>(&options_.target);
-    out_.pictureSizePx = jnd ? frame_.sizePx() : smallSize(frame_.sizePx(), options_.picturePx);
-    const Renderings small(frame_, out_.pictureSizePx);
-    const ReferencePair truth = small.references(options_.reference.samples, 1);
+    const Renderings renderings(frame_, at.sizePx);
+    const ReferencePair truth = renderings.references(subject_, at.samples, at.firstSeed);
     std::optional<JndErrors> visible;
-    if (jnd) visible.emplace(frame_, *jnd, truth);
+    if (jnd) visible.emplace(frame_, *jnd, truth, subject_.depicts);
     out_.referenceNoise = visible ? visible->noise() : truth.noise();
     const auto errorOf = [&](const Image& product) {
       return visible ? visible->estimate(product) : estimateError(product, truth);
@@ -81,7 +93,7 @@ class Search {
     for (const Candidate& candidate : candidates) {
       std::string obstacle = late() ? "no time was left" : obstacleTo(candidate, frame_.scene());
       try {
-        if (obstacle.empty()) measure(candidate, small, errorOf);
+        if (obstacle.empty()) measure(candidate, renderings, errorOf);
       } catch (const Error& error) {
         obstacle = error.message();
       }
@@ -100,8 +112,8 @@ class Search {
   }
 
   template <class ErrorOf>
-  void measure(const Candidate& candidate, const Renderings& small, const ErrorOf& errorOf) {
-    const ErrorEstimate error = errorOf(small.render(candidate));
+  void measure(const Candidate& candidate, const Renderings& renderings, const ErrorOf& errorOf) {
+    const ErrorEstimate error = errorOf(renderings.render(candidate));
     framesMs_.push_back(clock_.framesMs(candidate));
     out_.tried.push_back({candidate, error, estimateTime(framesMs_.back())});
   }
@@ -120,48 +132,77 @@ class Search {
   }
 
   frame::Frame& frame_;
+  const NeedsSubject& subject_;
   const NeedsOptions& options_;
   CandidateClock& clock_;
-  SceneNeedsFound& out_;
+  Trials& out_;
   std::vector<std::vector<double>> framesMs_;  ///< of each in `tried`
   steady_clock::time_point start_ = steady_clock::now();
 };
 
-FullSizeCheck checkAtFullSize(frame::Frame& frame, const Candidate& chosen, const NeedsOptions& options,
-                              CandidateClock& clock) {
+constexpr int64_t kCheckSeed = 3;  ///< other references than those of the choice
+
+}  // namespace
+
+FullSizeCheck checkAtFullSize(frame::Frame& frame, const Candidate& candidate, const NeedsSubject& subject,
+                              const NeedsOptions& options, CandidateClock& clock) {
   const Renderings full(frame, frame.sizePx());
-  const ReferencePair truth = full.references(options.reference.checkSamples, 3);
-  const Image product = full.render(chosen);
+  const ReferencePair truth = full.references(subject, options.reference.checkSamples, kCheckSeed);
+  const Image product = full.render(candidate);
   if (const auto* jnd = std::get_if<JndTarget>(&options.target)) {
-    JndErrors visible(frame, *jnd, truth);
-    return {visible.estimate(product), visible.noise(), estimateTime(clock.framesMs(chosen)),
+    JndErrors visible(frame, *jnd, truth, subject.depicts);
+    return {visible.estimate(product), visible.noise(), estimateTime(clock.framesMs(candidate)),
             errorMap(product, truth)};
   }
-  return {estimateError(product, truth), truth.noise(), estimateTime(clock.framesMs(chosen)),
+  return {estimateError(product, truth), truth.noise(), estimateTime(clock.framesMs(candidate)),
           errorMap(product, truth)};
 }
 
-}  // namespace
+WholeSetCheck checkWholeSet(frame::Frame& frame, const Candidate& choice,
+                            std::span<const Candidate> candidates, const NeedsSubject& subject,
+                            const NeedsOptions& options, CandidateClock& clock) {
+  const std::string name = describe(choice);
+  std::vector<Candidate> all = {choice};
+  for (const Candidate& candidate : candidates)
+    if (describe(candidate) != name) all.push_back(candidate);
+  Trials trials;
+  Search(frame, subject, options, clock, trials)
+      .run(all, {frame.sizePx(), options.reference.checkSamples, kCheckSeed});
+  if (describe(trials.tried.front().candidate) != name)
+    throw Error("what was chosen cannot be rendered: " + trials.notTried.front());
+  WholeSetCheck out;
+  out.tried = std::move(trials.tried);
+  out.notTried = std::move(trials.notTried);
+  out.best = decide(out.tried, largestOf(options.target));
+  return out;
+}
 
 const SettingsTable<NeedsReference>& NeedsReference::table() {
   using S = NeedsReference;
   static const SettingsTable<S> kTable = {
       {&S::samples, "samples", oneOf({16, 64, 256, 1024, 4096}), "rays",
-       "Shadow rays per receiver of each of two references, in the small picture"},
+       "Rays of each pixel in each of two references, in the small picture"},
       {&S::checkSamples, "check_samples", oneOf({16, 64, 256, 1024, 4096}), "rays",
        "The same in the check at full size"}};
   return kTable;
 }
 
 SceneNeedsFound findNeeds(frame::Frame& frame, std::span<const Candidate> candidates,
-                          const NeedsOptions& options, CandidateClock& clock) {
+                          const NeedsSubject& subject, const NeedsOptions& options, CandidateClock& clock) {
   SceneNeedsFound out;
   out.times = clock.label();
   out.reference = options.reference;
   out.target = options.target;
-  Search(frame, options, clock, out).run(candidates);
+  if (!subject.exact) out.samples = subject.samples;
+  out.pictureSizePx = isJnd(options.target) ? frame.sizePx() : smallSize(frame.sizePx(), options.picturePx);
+  Trials trials;
+  Search(frame, subject, options, clock, trials)
+      .run(candidates, {out.pictureSizePx, options.reference.samples, 1});
+  out.tried = std::move(trials.tried);
+  out.notTried = std::move(trials.notTried);
+  out.referenceNoise = trials.referenceNoise;
   out.verdict = decide(out.tried, largestOf(options.target));
-  out.check = checkAtFullSize(frame, out.chosen().candidate, options, clock);
+  out.check = checkAtFullSize(frame, out.chosen().candidate, subject, options, clock);
   return out;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/candidate_clock.h"
+#include "renderer/techniques/scene_needs/candidate_clock.h"
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace limen::techniques {
@@ -39,8 +40,10 @@ const SettingsTable<CandidateTiming>& CandidateTiming::table() {
 }
 
 std::string FrameClock::label() const {
-  return software() ? "wall time of whole frames around glFinish, on a software renderer"
-                    : "GPU time of whole frames";
+  std::string text = software() ? "wall time of whole frames around glFinish, on a software renderer"
+                                : "GPU time of whole frames";
+  for (const std::string& counter : added_) text += ", plus " + counter + " where a technique has it";
+  return text;
 }
 
 std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
@@ -64,9 +67,14 @@ std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
     // With a long queue, seconds of work would pass before the limit is noticed.
     if (i == 0) glFinish();
   }
+  const std::vector<gl::PassTime> times = frame.passes().finishRecording();
+  double addedMs = 0.0;
+  if (!added_.empty())
+    for (const Counter& counter : technique->count(frame))
+      if (std::find(added_.begin(), added_.end(), counter.name) != added_.end()) addedMs += counter.value;
   std::vector<double> out;
-  for (const gl::PassTime& time : frame.passes().finishRecording())
-    if (time.pass == "frame") out.push_back(1e-6 * double(time.nanoseconds));
+  for (const gl::PassTime& time : times)
+    if (time.pass == "frame") out.push_back(1e-6 * double(time.nanoseconds) + addedMs);
   return out;
 }
 

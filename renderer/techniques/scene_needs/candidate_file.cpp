@@ -3,21 +3,19 @@
 #include "experiments/base/error.h"
 #include "experiments/base/input_files.h"
 #include "experiments/base/text.h"
-#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
+#include "renderer/techniques/scene_needs/candidate.h"
 
 namespace limen::techniques {
 namespace {
 
-const char* const kExample = "- {name: soft_shadows/bitmask, budget: [64, 256]}";
-
 class CandidateReader {
  public:
-  CandidateReader(const std::string& path, const MapSettings& map)
-      : map_(map), problems_(path), files_(path), reader_(problems_, files_) {}
+  CandidateReader(const std::string& path, const CandidateFileRules& rules)
+      : rules_(rules), problems_(path), files_(path), reader_(problems_, files_) {}
 
   std::vector<Candidate> read(const YamlNode& root) {
     std::vector<Candidate> out;
-    if (reader_.isFilledList(root, "the list of candidates", kExample))
+    if (reader_.isFilledList(root, "the list of candidates", rules_.example.c_str()))
       for (const YamlNode& node : root.items) readEntry(node, out);
     problems_.throwIfAny();
     return out;
@@ -25,10 +23,10 @@ class CandidateReader {
 
  private:
   void readEntry(const YamlNode& node, std::vector<Candidate>& out) {
-    if (!reader_.isMap(node, "a candidate", kExample)) return;
+    if (!reader_.isMap(node, "a candidate", rules_.example.c_str())) return;
     const YamlNode* nameNode = node.find("name");
     if (!nameNode) {
-      problems_.add(node.mark, "'name' of a candidate is missing", kExample);
+      problems_.add(node.mark, "'name' of a candidate is missing", rules_.example.c_str());
       return;
     }
     const TechniqueRegistry& registry = TechniqueRegistry::instance();
@@ -38,23 +36,18 @@ class CandidateReader {
                     suggest(nameNode->text, registry.names()));
       return;
     }
-    if (info->product != ProductKind::Visibility || info->name == "soft_shadows/scene_needs") {
+    if (info->product != rules_.product || info->name == rules_.chooser) {
       problems_.add(nameNode->mark, "'" + info->name + "' is no candidate",
-                    "give a technique that makes a visibility");
+                    "give a technique that makes a " + toText(rules_.product));
       return;
     }
     const std::vector<Parameter>& declared = info->parameters;
     const std::vector<Axis> axes =
         EntryReader(reader_).axes(node, declared, "technique '" + info->name + "'");
     for (AxisPoint& point : combine(axes)) {
-      const auto takes = [&](const char* name) {
-        return std::any_of(declared.begin(), declared.end(),
-                           [&](const Parameter& one) { return one.name == name; });
-      };
-      if (takes("resolution")) point.emplace("resolution", int64_t{map_.resolution});
-      if (takes("raster") && map_.raster != MapSettings{}.raster)
-        point.emplace("raster", std::string(limen::toText(map_.raster)));
-      check({info->name, std::move(point)}, node.mark, out);
+      Candidate candidate{info->name, std::move(point)};
+      if (rules_.complete) rules_.complete(candidate);
+      check(std::move(candidate), node.mark, out);
     }
   }
 
@@ -69,7 +62,7 @@ class CandidateReader {
     }
   }
 
-  MapSettings map_;
+  const CandidateFileRules& rules_;
   Problems problems_;
   FileFinder files_;
   NodeReader reader_;
@@ -77,9 +70,9 @@ class CandidateReader {
 
 }  // namespace
 
-std::vector<Candidate> readCandidates(const std::string& path, const MapSettings& map) {
+std::vector<Candidate> readCandidateFile(const std::string& path, const CandidateFileRules& rules) {
   protectInput(path);
-  return CandidateReader(path, map).read(parseYaml(readTextFile(path), path));
+  return CandidateReader(path, rules).read(parseYaml(readTextFile(path), path));
 }
 
 }  // namespace limen::techniques

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/candidate.h"
+#include "renderer/techniques/scene_needs/candidate.h"
 
 #include <algorithm>
 
@@ -14,6 +14,11 @@ ParameterValues completeValues(const Candidate& candidate) {
 
 std::unique_ptr<Technique> makeTechnique(const Candidate& candidate) {
   return TechniqueRegistry::instance().get(candidate.technique).make(completeValues(candidate));
+}
+
+bool takes(const TechniqueInfo& info, const std::string& path) {
+  const std::vector<DeclaredAt> declared = flatten(info.parameters);
+  return std::any_of(declared.begin(), declared.end(), [&](const DeclaredAt& at) { return at.path == path; });
 }
 
 std::string describe(const Candidate& candidate) {

@@ -7,11 +7,11 @@
 
 namespace limen::techniques {
 
-/// Mean squared error of a visibility over receivers, against two references that sample the light
-/// independently of each other. For a product c and references a and b it is the mean of (c - a)(c - b): the
-/// references' own errors are as often of equal as of opposite sign, so that they add nothing on average,
-/// where the mean of (c - a)^2 would include a's variance. Visible differences (JndErrors) are kept in the
-/// same form, as the square of what the metric says.
+/// Mean squared error of a product over the pixels where it is compared, against two references that sample
+/// the light independently of each other. For a product c and references a and b it is the mean of (c - a)(c
+/// - b): the references' own errors are as often of equal as of opposite sign, so that they add nothing on
+/// average, where the mean of (c - a)^2 would include a's variance. Visible differences (JndErrors) are kept
+/// in the same form, as the square of what the metric says.
 struct ErrorEstimate {
   double meanSquare = 0.0;     ///< below 0 by chance where a product is exact
   double samplingNoise = 0.0;  ///< standard error of meanSquare by the references' samples
@@ -31,16 +31,16 @@ struct ErrorEstimate {
 
 /// The truth about a picture, known up to sampling.
 struct ReferencePair {
-  Image first, second;  ///< visibility
-  Image receivers;      ///< four channels, as frame::Receivers: the fourth is negative off surfaces
+  Image first, second;  ///< the product: visibility, or colour, whose first three channels are compared
+  Image mask;           ///< 1 channel: above 0 where products are compared
 
   /// RMS of the sampling error of the mean of both, which estimateError() removes.
   double noise() const;
 };
 
-/// Values that are not finite count as an error of 1.
+/// Values that are not finite count as an error of 1. With several channels, the mean over them.
 ErrorEstimate estimateError(const Image& product, const ReferencePair& truth);
-/// |product - mean of both references|, 0 off surfaces.
+/// |product - mean of both references|, the mean of the channels; 0 where nothing is compared.
 Image errorMap(const Image& product, const ReferencePair& truth);
 
 }  // namespace limen::techniques

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/decision.h"
+#include "renderer/techniques/scene_needs/decision.h"
 
 #include <algorithm>
 #include <cassert>

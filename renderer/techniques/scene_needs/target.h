@@ -11,8 +11,7 @@
 namespace limen::techniques {
 
 struct RmseTarget {
-  static constexpr const char *kKind = "rmse",
-                              *kSummary = "root mean square of the visibility's error over surfaces";
+  static constexpr const char *kKind = "rmse", *kSummary = "root mean square of the product's error";
   double value = 0.02;
   static const SettingsTable<RmseTarget>& table();
 };
@@ -24,8 +23,7 @@ constexpr EnumNames<JndFigure, 3> enumNames(JndFigure) {
 }
 
 struct JndTarget {
-  static constexpr const char *kKind = "jnd",
-                              *kSummary = "visible difference on a display, of the scene lit by the product";
+  static constexpr const char *kKind = "jnd", *kSummary = "visible difference on a display";
   double value = 1.0;
   JndFigure figure = JndFigure::P95;
   perception::ViewingSettings viewing{{"desktop_24", {}}};

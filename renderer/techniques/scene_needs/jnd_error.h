@@ -4,18 +4,19 @@
 #include "perception/metrics/metric.h"
 #include "perception/metrics/metric_gpu.h"
 #include "renderer/frame/frame.h"
-#include "renderer/techniques/soft_shadows/scene_needs/error_estimate.h"
-#include "renderer/techniques/soft_shadows/scene_needs/target.h"
+#include "renderer/techniques/scene_needs/error_estimate.h"
+#include "renderer/techniques/scene_needs/target.h"
 
 namespace limen::techniques {
 
-/// Visible differences of visibilities from the mean of two references, by the metric `jnd`, at the size at
+/// Visible differences of products from the mean of two references, by the metric `jnd`, at the size at
 /// which they are shown: unlike an RMSE, what is seen depends on a picture's size. The noise of the
 /// references is part of what is seen. Waits for the GPU.
 class JndErrors {
  public:
   /// `like`: the view. `truth` has its size.
-  JndErrors(frame::Frame& like, const JndTarget& target, const ReferencePair& truth);
+  JndErrors(frame::Frame& like, const JndTarget& target, const ReferencePair& truth,
+            perception::Depicts depicts);
 
   /// In JND. Sampling noise is half of noise(), as the mean of both references has half the variance of
   /// either and their difference has twice.
@@ -31,6 +32,7 @@ class JndErrors {
   const perception::MetricInfo& metric_;
   ParameterValues settings_;
   size_t figure_ = 0;
+  perception::Depicts depicts_;
   Image mask_, mean_;
   perception::LitSurfaces surfaces_;
   double noise_ = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/techniques/soft_shadows/scene_needs/jnd_error.h"
+#include "renderer/techniques/scene_needs/jnd_error.h"
 
 #include <algorithm>
 
@@ -27,20 +27,23 @@ perception::LitSurfaces surfacesOf(frame::Frame& frame) {
 
 }  // namespace
 
-JndErrors::JndErrors(frame::Frame& like, const JndTarget& target, const ReferencePair& truth)
+JndErrors::JndErrors(frame::Frame& like, const JndTarget& target, const ReferencePair& truth,
+                     perception::Depicts depicts)
     : frame_(like.context(), like.scene(), like.gpuScene(), like.sizePx(), like.timeS(), like.raster()),
       gpu_(like.context()),
       metric_(perception::MetricRegistry::instance().get(kMetric)),
       settings_(settingsOf(target, metric_)),
+      depicts_(depicts),
       mask_(truth.first.width, truth.first.height, 1),
-      mean_(truth.first.width, truth.first.height, 1),
-      surfaces_(surfacesOf(frame_)) {
+      mean_(truth.first) {
+  if (depicts == perception::Depicts::ShareOfLight) surfaces_ = surfacesOf(frame_);
   const std::string wanted = limen::toText(target.figure);
   while (metric_.figures.at(figure_).name != wanted) ++figure_;
   for (size_t i = 0; i < mask_.pixels(); ++i) {
-    mask_.data[i] = truth.receivers.data[4 * i + 3] >= 0.0F ? 1.0F : 0.0F;
-    mean_.data[i] = 0.5F * (truth.first.data[i] + truth.second.data[i]);
+    mask_.data[i] = truth.mask.data[i] > 0.0F ? 1.0F : 0.0F;
   }
+  for (size_t i = 0; i < mean_.data.size(); ++i)
+    mean_.data[i] = 0.5F * (truth.first.data[i] + truth.second.data[i]);
   noise_ = between(truth.first, truth.second);
 }
 
@@ -50,8 +53,8 @@ double JndErrors::between(const Image& test, const Image& reference) {
   input.reference = &reference;
   input.mask = &mask_;
   input.gpu = &gpu_;
-  input.depicts = perception::Depicts::ShareOfLight;
-  input.surfaces = &surfaces_;
+  input.depicts = depicts_;
+  if (depicts_ == perception::Depicts::ShareOfLight) input.surfaces = &surfaces_;
   return metric_.compare(input, settings_).figures.at(figure_);
 }
 
