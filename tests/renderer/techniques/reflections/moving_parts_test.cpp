@@ -60,7 +60,9 @@ TEST_F(MovingParts, TechniquesThatFollowThemGiveTheMovedState) {
   expectMovedState(scene, "reflections/ray_hierarchy", {{"primary", std::string("traced")}});
   expectMovedState(scene, "reflections/vertex_reflection", {});
   expectMovedState(scene, "reflections/vertex_reflection",
-                   {{"tessellation", std::string("even")}, {"tessellation.segments", int64_t{3}}});
+                   {{"tessellation", std::string("even")},
+                    {"tessellation.segments", int64_t{3}},
+                    {"invalid", std::string("drop")}});
   expectMovedState(scene, "reflections/reference", {{"shading.shadow", true}});
 }
 
