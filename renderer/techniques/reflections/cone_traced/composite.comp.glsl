@@ -64,7 +64,7 @@ void consider(Beam beam, uint triangle, uint leaves) {
   const float least = first - 1e-5 * abs(centre.z);
   if (least > needed || (keptCount == LAYERS && least > uintBitsToFloat(kept[0].x))) return;
 #endif
-  iterations += 40;
+  iterations += 26;
   const uvec3 vertices = sceneTriangle(triangle);
   const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y), scenePosition(vertices.z),
                                   originTolerance);
@@ -111,6 +111,7 @@ void main() {
     const uint first = lists[2u * tile], listed = lists[2u * tile + 1u];
     const uint number = listed == kConeUnlisted ? triangleCount : listed;
     bool cutShort = false;
+    keepNone();
     for (uint i = 0u; i < number; ++i) {
       consider(beam, listed == kConeUnlisted ? i : lists[2u * tileCount + first + i], id);
       if (iterations > mostIterations) {

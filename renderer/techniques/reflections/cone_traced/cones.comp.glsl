@@ -2,6 +2,7 @@
 // The cones that leave the mirrors which pixels see (Roger 2008, section 5.2.2): a point on the axis, the radius there, the
 // direction, and the growth of the radius per unit of distance. The radius at the mirror is the pixel's footprint, so that
 // no apex is needed, which may be at infinity. The formulas are those of cone_geometry.h.
+uniform ivec2 sizePx;
 #include "renderer/frame/surface_point.glsl"
 #include "renderer/techniques/reflections/cone_traced/cone_traced_bindings.h"
 
@@ -14,7 +15,6 @@ layout(binding = kConeOriginsImage, rgba32f) uniform writeonly image2D outOrigin
 layout(binding = kConeDirectionsImage, rgba32f) uniform writeonly image2D outDirections;
 layout(binding = kConeShapesImage, rg32f) uniform writeonly image2D outShapes;
 
-uniform ivec2 sizePx;
 uniform float glossScale, widest;
 
 // Half-angle of the cone of the pixel's solid angle.
@@ -89,6 +89,11 @@ float reflectedHalfAngle(float apart, float cosine, float curvature, float halfA
     const vec2 p = left.direction, q = right.direction;
     const float angle = 0.5 * atan(q.x * p.y - q.y * p.x, dot(p, q));
     return bend < -1.0 ? -abs(angle) : abs(angle);
+  }
+  if (left.meets || right.meets) {
+    // From the middle to the edge that meets, or to the ray that only touches, which is not turned at all.
+    const vec2 edge = left.meets ? left.direction : right.direction, middle = vec2(-towardsEye.x, towardsEye.y);
+    return max(abs(atan(edge.x * middle.y - edge.y * middle.x, dot(edge, middle))), 2.0 * asin(min(cosine, 1.0)));
   }
 #endif
   return halfAngle * (1.0 + bend);

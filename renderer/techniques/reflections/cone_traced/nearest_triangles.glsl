@@ -2,8 +2,13 @@
 // The nearest LAYERS triangles of a cone, kept in a heap whose root is the farthest, then in order. Of two at the same
 // distance the one of the lower number is nearer, so that the order of lists changes nothing.
 uvec2 kept[LAYERS];  // bits of the distance, triangle
-int keptCount = 0;
-int iterations = 0;
+int keptCount;
+int iterations;
+
+void keepNone() {
+  kept[0] = uvec2(0u);
+  keptCount = iterations = 0;
+}
 
 bool isNearer(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
