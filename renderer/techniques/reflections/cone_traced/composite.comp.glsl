@@ -5,7 +5,8 @@
 //   TABLE      contribution by the table of overlaps and places
 //   MASKED     what is hidden within the cone by a mask of its area
 //   FILTERED   patterns as wide as the overlap
-//   RESCALED, ENVIRONMENT   what fills the rest
+//   PEEL       writes all that fill a share of a cone, for peeling, in place of the nearest
+//   UNFILLED, RESCALED, ENVIRONMENT   what fills the rest
 #include "renderer/techniques/reflections/cone_traced/cone_traced_bindings.h"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
@@ -37,44 +38,15 @@ uniform bool flatShading;
 #ifdef LIT
 float sunShare(ivec2 pixel, SeenPoint seen) { return 1.0; }
 #endif
-#ifdef ENVIRONMENT
-layout(binding = kConeEnvironmentUnit) uniform samplerCube environment;
-uniform float environmentTexels;  // along a side
+#include "renderer/techniques/reflections/cone_traced/fill.glsl"
+#ifdef PEEL
+#include "renderer/techniques/reflections/cone_traced/peel_items.glsl"
 #endif
 
 float needed = 3.0e38;  // distance of what fills the cone alone
 float farthest = 3.0e38;
 int met = 0;
 float metShare = 0.0;
-
-// A triangle that may meet the cone: keeps it if it does.
-void consider(Beam beam, uint triangle, uint leaves) {
-  ++iterations;
-  if (triangle == leaves) return;
-  const vec4 sphere = spheres[triangle];
-  if (!(sphere.w >= 0.0)) return;
-  const vec3 centre = inBeam(beam, sphere.xyz);
-  const float first = centre.z - sphere.w;
-  // The cone's rim along the side of the sphere, rounded up; cone_sphere.glsl has the same test for nodes.
-  const float slant = sqrt(1.0 + beam.growth * beam.growth);
-  if (length(centre.xy) - beam.radius - beam.growth * centre.z > sphere.w * slant * 1.0001 + 1e-5 * (abs(centre.z) + length(centre.xy)))
-    return;
-  if (centre.z + sphere.w < 0.0) return;
-#ifndef COUNT
-  const float least = first - 1e-5 * abs(centre.z);
-  if (least > needed || (keptCount == LAYERS && least > uintBitsToFloat(kept[0].x))) return;
-#endif
-  iterations += 26;
-  const uvec3 vertices = sceneTriangle(triangle);
-  const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y), scenePosition(vertices.z),
-                                  originTolerance);
-  if (!(found.share > 0.0) || found.along > farthest) return;
-  ++met;
-  metShare += found.share;
-  if (found.share < leastShare) return;
-  if (found.share > 0.99999) needed = min(needed, found.along);
-  keep(uvec2(floatBitsToUint(found.along), triangle));
-}
 
 vec3 colourAt(Beam beam, BeamShare found, uint triangle) {
   const uvec3 vertices = sceneTriangle(triangle);
@@ -89,6 +61,39 @@ vec3 colourAt(Beam beam, BeamShare found, uint triangle) {
   patternNormal = point.flatNormal;
 #endif
   return pointColour(point, 1.0);
+}
+
+// A triangle that may meet the cone: keeps it if it does.
+void consider(Beam beam, uint triangle, uint leaves, float wide) {
+  ++iterations;
+  if (triangle == leaves) return;
+  const vec4 sphere = spheres[triangle];
+  if (!(sphere.w >= 0.0)) return;
+  const vec3 centre = inBeam(beam, sphere.xyz);
+  const float first = centre.z - sphere.w;
+  // The cone's rim along the side of the sphere, rounded up; cone_sphere.glsl has the same test for nodes.
+  const float slant = sqrt(1.0 + beam.growth * beam.growth);
+  if (length(centre.xy) - beam.radius - beam.growth * centre.z > sphere.w * slant * 1.0001 + 1e-5 * (abs(centre.z) + length(centre.xy)))
+    return;
+  if (centre.z + sphere.w < 0.0) return;
+#if !defined(COUNT) && !defined(PEEL)
+  const float least = first - 1e-5 * abs(centre.z);
+  if (least > needed || (keptCount == LAYERS && least > uintBitsToFloat(kept[0].x))) return;
+#endif
+  iterations += 26;
+  const uvec3 vertices = sceneTriangle(triangle);
+  const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y), scenePosition(vertices.z),
+                                  originTolerance);
+  if (!(found.share > 0.0) || found.along > farthest) return;
+  ++met;
+  metShare += found.share;
+  if (found.share < leastShare) return;
+#ifdef PEEL
+  addItem(ivec2(gl_GlobalInvocationID.xy), found.along, contribution(beam, found, wide), colourAt(beam, found, triangle));
+#else
+  if (found.share > 0.99999) needed = min(needed, found.along);
+  keep(uvec2(floatBitsToUint(found.along), triangle));
+#endif
 }
 
 void main() {
@@ -110,17 +115,17 @@ void main() {
     const uint tile = uint(at.y * ((sizePx.x + (1 << leafLevel) - 1) >> leafLevel) + at.x);
     const uint first = lists[2u * tile], listed = lists[2u * tile + 1u];
     const uint number = listed == kConeUnlisted ? triangleCount : listed;
+    const float wide = texelFetch(coneShapes, pixel, 0).x;
     bool cutShort = false;
     keepNone();
     for (uint i = 0u; i < number; ++i) {
-      consider(beam, listed == kConeUnlisted ? i : lists[2u * tileCount + first + i], id);
+      consider(beam, listed == kConeUnlisted ? i : lists[2u * tileCount + first + i], id, wide);
       if (iterations > mostIterations) {
         cutShort = true;
         break;
       }
     }
     sortKept();
-    const float wide = texelFetch(coneShapes, pixel, 0).x;
     vec3 sum = vec3(0.0);
     float covered = 0.0, keptShare = 0.0;
     for (int i = 0; i < keptCount; ++i) {
@@ -138,22 +143,8 @@ void main() {
       if (covered >= 0.99999) break;
 #endif
     }
-    float accounted = covered;
-#ifdef RESCALED
-    if (covered > 0.0) sum /= covered;
-    accounted = covered > 0.0 ? 1.0 : 0.0;
-#elif defined(ENVIRONMENT)
-    const float level = log2(max(beam.growth * environmentTexels, 1.0));
-    sum += (1.0 - covered) * textureLod(environment, direction.xyz, level).rgb;
-    accounted = 1.0;
-#elif defined(UNFILLED)
-    accounted = 1.0;
-#endif
-    result = cutShort ? vec4(uintBitsToFloat(0x7fc00000u)) : vec4(sum, accounted);
-    counts = vec4(float(met), float(keptCount), max(metShare - keptShare, 0.0), metShare);
-#ifdef COUNT
-    counts.w = covered;
-#endif
+    result = cutShort ? vec4(uintBitsToFloat(0x7fc00000u)) : filled(sum, covered, direction.xyz, direction.w);
+    counts = vec4(float(met), float(keptCount), max(metShare - keptShare, 0.0), covered);
   }
   imageStore(outImage, pixel, result);
 #ifdef COUNT

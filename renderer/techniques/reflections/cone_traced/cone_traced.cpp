@@ -21,8 +21,10 @@
 #include "renderer/techniques/reflections/cone_traced/cone_traced_bindings.h"
 #include "renderer/techniques/reflections/cone_traced/cone_traced_settings.h"
 #include "renderer/techniques/reflections/cone_traced/contribution_table.h"
+#include "renderer/techniques/reflections/cone_traced/peeling.h"
 #include "renderer/techniques/reflections/cones/cone_geometry.h"
 #include "renderer/techniques/reflections/cones/pixel_solid_angles.h"
+#include "renderer/techniques/reflections/environment_map/surroundings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/technique.h"
 
@@ -30,7 +32,8 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kConesPass = "reflections/cones", *kConeListsPass = "reflections/lists",
-                     *kConeCompositePass = "reflections/composite";
+                     *kConeCompositePass = "reflections/composite",
+                     *kConeSurroundingsPass = "reflections/surroundings";
 constexpr int kTableSide = 32, kTableLayers = 17;
 
 gl::Texture solidAngleTexture(frame::Frame& frame) {
@@ -80,7 +83,15 @@ class ConeTraced : public Technique {
     if (settings_.reflection == ConeReflection::EdgeRays) cones["EDGE_RAYS"] = "1";
     cones_ = &cache.compute(folder + "cones.comp.glsl", cones);
     gl::ShaderDefines defines = compositeDefines(frame);
-    composite_ = &cache.compute(folder + "composite.comp.glsl", defines);
+    if (const auto* peeled = std::get_if<PeeledLayers>(&settings_.backEnd)) {
+      peeling_.emplace(frame, peeled->room);
+      gl::ShaderDefines items = defines;
+      items["PEEL"] = "1";
+      items_ = &cache.compute(folder + "composite.comp.glsl", items);
+      finish_ = &cache.compute(folder + "peel_finish.comp.glsl", fillDefines());
+    } else {
+      composite_ = &cache.compute(folder + "composite.comp.glsl", defines);
+    }
     defines["COUNT"] = "1";
     countComposite_ = &cache.compute(folder + "composite.comp.glsl", defines);
     const glm::ivec2 size = frame.sizePx();
@@ -91,6 +102,10 @@ class ConeTraced : public Technique {
     solidAngles_.emplace(solidAngleTexture(frame));
     mask_.emplace(maskTexture());
     if (settings_.contribution == ConeContribution::Table) table_.emplace(contributionTexture());
+    if (const auto* fill = std::get_if<FillEnvironment>(&settings_.fill)) {
+      surroundings_.emplace(frame, fill->resolution, true, settings_.shading);
+      frame.passes().setBytesHeld(kConeSurroundingsPass, surroundings_->bytes());
+    }
     traversal_.emplace(frame, settings_.traversal, false, HierarchyLeaves::Cones);
     setFarthest(frame);
     lists_.emplace(frame, *traversal_);
@@ -102,6 +117,10 @@ class ConeTraced : public Technique {
 
   void render(frame::Frame& frame) override {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    if (surroundings_) {
+      const auto scope = frame.passes().open(kConeSurroundingsPass);
+      surroundings_->draw(frame);
+    }
     makeCones(frame, ids);
     traversal_->beginFrame(frame);
     traversal_->trace(frame, {&*origins_, &*directions_, &ids}, "1");
@@ -109,7 +128,9 @@ class ConeTraced : public Technique {
       const auto scope = frame.passes().open(kConeListsPass);
       lists_->make(*traversal_);
     }
-    {
+    if (peeling_) {
+      peel(frame, ids);
+    } else {
       const auto scope = frame.passes().open(kConeCompositePass);
       composite(frame, ids, *composite_);
     }
@@ -149,7 +170,8 @@ class ConeTraced : public Technique {
             {"clamped_cones", kinds[kConeClamped]},
             {"cone_sphere_tests", static_cast<double>(pairs.tests)},
             {"tile_pairs", double(pairs.control.leafPairs)},
-            {"groups_without_room", double(pairs.control.leftEver)}};
+            {"groups_without_room", double(pairs.control.leftEver)},
+            {"items_without_room", peeling_ ? std::max(double(peeling_->items()) - room(), 0.0) : 0.0}};
   }
 
   static std::vector<Quantity> quantities() {
@@ -168,19 +190,54 @@ class ConeTraced : public Technique {
             {"clamped_cones", "Cones that are too wide or miss the mirror with an edge", "px", lower, source},
             {"cone_sphere_tests", "Tests of nodes with spheres", "tests", lower, source},
             {"tile_pairs", "Pairs of tiles and triangles", "pairs", lower, source},
-            {"groups_without_room", "Groups of pairs that found no room", "groups", lower, source}};
+            {"groups_without_room", "Groups of pairs that found no room", "groups", lower, source},
+            {"items_without_room", "Pairs of pixels and triangles without room to be peeled", "pairs", lower,
+             source}};
   }
 
  private:
+  double room() const { return std::get<PeeledLayers>(settings_.backEnd).room; }
   gl::ShaderDefines compositeDefines(frame::Frame& frame) const {
     gl::ShaderDefines defines = frame::mirrorTraceDefines(settings_.shading, frame);
     defines["LAYERS"] = std::to_string(settings_.layers);
     if (settings_.contribution == ConeContribution::Table) defines["TABLE"] = "1";
     if (settings_.coverage == ConeCoverage::Masked) defines["MASKED"] = "1";
     if (settings_.filterPatterns) defines["FILTERED"] = "1";
-    if (std::holds_alternative<FillNothing>(settings_.fill)) defines["UNFILLED"] = "1";
-    if (std::holds_alternative<FillRescaled>(settings_.fill)) defines["RESCALED"] = "1";
+    defines.merge(fillDefines());
     return defines;
+  }
+
+  gl::ShaderDefines fillDefines() const {
+    if (std::holds_alternative<FillNothing>(settings_.fill)) return {{"UNFILLED", "1"}};
+    if (std::holds_alternative<FillRescaled>(settings_.fill)) return {{"RESCALED", "1"}};
+    if (std::holds_alternative<FillEnvironment>(settings_.fill)) return {{"ENVIRONMENT", "1"}};
+    return {};
+  }
+
+  void peel(frame::Frame& frame, const gl::Texture& ids) const {
+    {
+      const auto scope = frame.passes().open(kConeCompositePass);
+      peeling_->begin();
+      peeling_->configure(*items_);
+      composite(frame, ids, *items_);
+    }
+    peeling_->peel(frame, settings_.layers);
+    const auto scope = frame.passes().open("reflections/fill");
+    finish_->set("sizePx", frame.sizePx());
+    peeling_->configure(*finish_);
+    bindEnvironment(*finish_);
+    origins_->bindTexture(kConeOriginsUnit);
+    directions_->bindTexture(kConeDirectionsUnit);
+    peeling_->result().bindTexture(kPeelLayerUnit);
+    reflected_->bindImage(kConeImage, gl::Access::Write);
+    finish_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  void bindEnvironment(const gl::Program& program) const {
+    if (!surroundings_) return;
+    surroundings_->map().bindCube(kConeEnvironmentUnit);
+    program.set("environmentTexels", float(surroundings_->map().resolution()));
   }
 
   /// No cone is longer than one of the smallest gloss.
@@ -226,6 +283,7 @@ class ConeTraced : public Technique {
     directions_->bindTexture(kConeDirectionsUnit);
     ids.bindTexture(kConeIdsUnit);
     shapes_->bindTexture(kConeShapesUnit);
+    bindEnvironment(program);
     if (table_) table_->bindTexture(kConeTableUnit);
     mask_->bindTexture(kConeMaskUnit);
     traversal_->spheres().bindStorage(kConeSpheresBuffer);
@@ -237,7 +295,10 @@ class ConeTraced : public Technique {
 
   Settings settings_;
   ReflectionPicture picture_;
-  const gl::Program *cones_ = nullptr, *composite_ = nullptr, *countComposite_ = nullptr;
+  const gl::Program *cones_ = nullptr, *composite_ = nullptr, *countComposite_ = nullptr, *items_ = nullptr,
+                    *finish_ = nullptr;
+  std::optional<ConePeeling> peeling_;
+  std::optional<Surroundings> surroundings_;
   std::optional<PairTraversal> traversal_;
   std::optional<ConeLists> lists_;
   std::optional<gl::Texture> origins_, directions_, shapes_, reflected_, solidAngles_, mask_, table_;

@@ -45,6 +45,17 @@ const uint kConeImage = 0u;
 const uint kConeCountsImage = 1u;
 const int kConeMaskPoints = 64;
 
+// Peeling.
+const int kPeelItemsAcross = 4096;
+const uint kPeelCounter = 0u;
+const uint kPeelKeysImage = 2u;
+const uint kPeelColoursImage = 3u;
+const uint kPeelResultImage = 0u;
+const uint kPeelKeysUnit = 0u;
+const uint kPeelColoursUnit = 1u;
+const uint kPeelPreviousUnit = 2u;
+const uint kPeelLayerUnit = 3u;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif

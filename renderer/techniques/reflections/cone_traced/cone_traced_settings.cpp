@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/reflections/cone_traced/cone_traced_settings.h"
 
+#include "experiments/base/error.h"
+
 namespace limen::techniques {
 
 const SettingsTable<FillNothing>& FillNothing::table() {
@@ -20,6 +22,25 @@ const SettingsTable<FillEnvironment>& FillEnvironment::table() {
       {&FillEnvironment::resolution, "resolution", oneOf({16, 32, 64, 128, 256}), "texels", "Side of a face",
        "low in Roger 2008, section 5.2.4 (value not given there)"}};
   return kTable;
+}
+
+const SettingsTable<SortedLayers>& SortedLayers::table() {
+  static const SettingsTable<SortedLayers> kTable = {};
+  return kTable;
+}
+const SettingsTable<PeeledLayers>& PeeledLayers::table() {
+  static const SettingsTable<PeeledLayers> kTable = {{&PeeledLayers::room,
+                                                      "room",
+                                                      {1, 1 << 26},
+                                                      "pairs",
+                                                      "Pairs of a pixel and a triangle that may be drawn",
+                                                      "2048 x 2048 in Roger 2008, section 3.3.4"}};
+  return kTable;
+}
+
+void ConeTracedSettings::check() const {
+  if (std::holds_alternative<PeeledLayers>(backEnd) && coverage == ConeCoverage::Masked)
+    throw Error("peeled layers are blended without a mask", "coverage", "choose saturated, or sorted layers");
 }
 
 const SettingsTable<ConeTracedSettings>& ConeTracedSettings::table() {
@@ -51,6 +72,8 @@ const SettingsTable<ConeTracedSettings>& ConeTracedSettings::table() {
        "What hides what within a cone: whatever is nearer until it is full, or a mask of its area",
        "saturated in Roger 2008, section 5.2.4; the mask is the bench's own"},
       {&S::fill, "fill", "What a cone shows where nothing covers it", "Roger 2008, section 5.2.4"},
+      {&S::backEnd, "back_end", "How the nearest triangles of a cone are found and blended",
+       "peeled in Roger 2008, section 5.2.4; a sort is suggested there"},
       {&S::farRadius,
        "far_radius",
        {0.0, 1.0},

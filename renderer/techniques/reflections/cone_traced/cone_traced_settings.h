@@ -66,10 +66,12 @@ struct ConeTracedSettings {
   ConeContribution contribution = ConeContribution::Area;
   ConeCoverage coverage = ConeCoverage::Saturated;
   ConeFill fill;
+  ConeLayers backEnd;
   double farRadius = 0.0;
   bool filterPatterns = true;
   TraversalSettings traversal{.leafSide = 4};
   frame::ShadedSetting shading;
+  void check() const;
   static const SettingsTable<ConeTracedSettings>& table();
 };
 

@@ -14,9 +14,9 @@
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/surface_point.h"
 #include "renderer/techniques/reflections/environment_map/cube_map.h"
+#include "renderer/techniques/reflections/environment_map/surroundings.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
-#include "renderer/techniques/reflections/view_raster.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -117,57 +117,18 @@ struct EnvironmentMapSettings {
   }
 };
 
-/// The mirror with the largest surface: its part, and the middle of its box relative to the anchor.
-struct MapReflector {
-  uint32_t part = ViewRaster::kNoGroup;
-  glm::dvec3 middle{0.0};
-};
-
-MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor) {
-  MapReflector best;
-  double most = -1.0;
-  for (size_t p = 0; p < scene.parts.size(); ++p) {
-    const scene::Part& part = scene.parts[p];
-    if (!scene.materials[part.material].reflects()) continue;
-    double area = 0.0;
-    scene::Bounds bounds;
-    for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t) {
-      const glm::uvec3 of = scene.mesh.triangles[t];
-      const glm::dvec3 a = scene.mesh.positions[of.x], b = scene.mesh.positions[of.y],
-                       c = scene.mesh.positions[of.z];
-      const double twice = glm::length(glm::cross(b - a, c - a));
-      if (!std::isfinite(twice)) continue;
-      area += 0.5 * twice;
-      for (const glm::dvec3& corner : {a, b, c}) bounds.extend(corner - anchor);
-    }
-    if (area > most && !bounds.empty()) {
-      most = area;
-      best = {static_cast<uint32_t>(p), bounds.centre()};
-    }
-  }
-  return best;
-}
-
 class EnvironmentMap : public Technique {
  public:
   using Settings = EnvironmentMapSettings;
   explicit EnvironmentMap(const Settings& settings) : settings_(settings), picture_(settings.shading) {}
 
   void prepare(frame::Frame& frame) override {
-    const scene::Scene& scene = frame.scene();
-    reflector_ = largestMapReflector(scene, frame.gpuScene().anchor());
-    std::vector<uint32_t> partOf(scene.mesh.triangles.size());
-    for (size_t p = 0; p < scene.parts.size(); ++p)
-      std::fill_n(partOf.begin() + scene.parts[p].firstTriangle, scene.parts[p].triangleCount, uint32_t(p));
-    raster_.emplace(frame, glm::ivec2(settings_.resolution), partOf, false);
     const auto* lobe = std::get_if<PrefilteredLobe>(&settings_.prefilter);
-    map_.emplace(settings_.resolution, settings_.filter == MapFilter::Mip || lobe);
+    drawn_.emplace(frame, settings_.resolution, settings_.filter == MapFilter::Mip || lobe,
+                   settings_.shading);
     if (lobe) filtered_.emplace(lobe->resolution, false);
-    gl::ShaderDefines defines = frame::shadingDefines(settings_.shading, frame);
-    defines.erase("SHADOW");
     auto& programs = frame.context().programs();
     const std::string folder = "renderer/techniques/reflections/environment_map/";
-    face_ = &programs.compute(folder + "environment_face.comp.glsl", defines);
     prefilter_ = &programs.compute(folder + "prefilter.comp.glsl", {});
     gl::ShaderDefines look;
     defineEnum(look, "FILTER", settings_.filter);
@@ -178,8 +139,7 @@ class EnvironmentMap : public Technique {
     countLook_ = &programs.compute(folder + "environment_look.comp.glsl", look);
     reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
     fates_.emplace(gl::Format::R32UI, frame.sizePx());
-    frame.passes().setBytesHeld(kMapPass,
-                                raster_->bytes() + map_->bytes() + (filtered_ ? filtered_->bytes() : 0));
+    frame.passes().setBytesHeld(kMapPass, drawn_->bytes() + (filtered_ ? filtered_->bytes() : 0));
     frame.passes().setBytesHeld(kLookPass, reflected_->bytes());
     picture_.prepare(frame);
   }
@@ -187,9 +147,7 @@ class EnvironmentMap : public Technique {
   void render(frame::Frame& frame) override {
     {
       const auto scope = frame.passes().open(kMapPass);
-      for (int face = 0; face < 6; ++face) drawFace(frame, face);
-      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-      map_->makeLevels();
+      drawn_->draw(frame);
     }
     if (const auto* lobe = std::get_if<PrefilteredLobe>(&settings_.prefilter)) {
       const auto scope = frame.passes().open(kPrefilterPass);
@@ -221,32 +179,10 @@ class EnvironmentMap : public Technique {
   }
 
  private:
-  void drawFace(frame::Frame& frame, int face) {
-    const CubeFace of = cubeFace(face);
-    glm::dmat4 clip(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-      clip[axis][0] = of.right[axis];
-      clip[axis][1] = -of.down[axis];
-      clip[axis][3] = of.forward[axis];
-    }
-    clip[3] = -(clip * glm::dvec4(reflector_.middle, 0.0));
-    clip[3][2] = frame::nearPlane(frame);
-    raster_->clear();
-    raster_->draw(frame, glm::mat4(clip), glm::vec4(0.0F, 0.0F, 0.0F, 1.0F), reflector_.part);
-    frame::configureShading(*face_, frame, settings_.shading);
-    face_->set("sizePx", glm::ivec2(settings_.resolution));
-    face_->set("face", face);
-    face_->set("centre", glm::vec3(reflector_.middle));
-    face_->set("flatShading", settings_.shading.smoothNormals ? 0 : 1);
-    raster_->ids().bindTexture(kEnvironmentIdsUnit);
-    map_->faces().bindImage(kReflectionImage, gl::Access::Write);
-    face_->dispatch(glm::ivec2(settings_.resolution));
-  }
-
   void prefilter(const PrefilteredLobe& lobe) {
     int level = 0;
     while (settings_.resolution >> level > lobe.source) ++level;
-    map_->faces().bindTexture(kEnvironmentFacesUnit);
+    drawn_->map().faces().bindTexture(kEnvironmentFacesUnit);
     filtered_->faces().bindImage(kReflectionImage, gl::Access::Write);
     prefilter_->set("sourceLevel", level);
     prefilter_->set("sourceResolution", settings_.resolution >> level);
@@ -260,10 +196,10 @@ class EnvironmentMap : public Technique {
   }
 
   void look(frame::Frame& frame, const frame::MirrorRays& rays, const gl::Program& program) {
-    const CubeMap& map = filtered_ ? *filtered_ : *map_;
+    const CubeMap& map = filtered_ ? *filtered_ : drawn_->map();
     program.set("sizePx", frame.sizePx());
     program.set("resolution", map.resolution());
-    program.set("centre", glm::vec3(reflector_.middle));
+    program.set("centre", glm::vec3(drawn_->middle()));
     const double diagonal = frame.gpuScene().diagonal();
     if (const auto* finite = std::get_if<FiniteMap>(&settings_.lookup))
       program.set("radius", static_cast<float>(finite->radius * diagonal));
@@ -276,7 +212,7 @@ class EnvironmentMap : public Technique {
     rays.origins().bindTexture(kReflectionOriginsUnit);
     rays.directions().bindTexture(kReflectionDirectionsUnit);
     map.bindCube(kEnvironmentCubeUnit);
-    map_->faces().bindTexture(kEnvironmentFacesUnit);
+    drawn_->map().faces().bindTexture(kEnvironmentFacesUnit);
     reflected_->bindImage(kReflectionImage, gl::Access::Write);
     fates_->bindImage(kEnvironmentFateImage, gl::Access::Write);
     program.dispatch(frame.sizePx());
@@ -285,10 +221,9 @@ class EnvironmentMap : public Technique {
 
   EnvironmentMapSettings settings_;
   ReflectionPicture picture_;
-  MapReflector reflector_;
-  const gl::Program *face_ = nullptr, *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
-  std::optional<ViewRaster> raster_;
-  std::optional<CubeMap> map_, filtered_;
+  const gl::Program *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
+  std::optional<Surroundings> drawn_;
+  std::optional<CubeMap> filtered_;
   std::optional<gl::Texture> reflected_, fates_;
 };
 
