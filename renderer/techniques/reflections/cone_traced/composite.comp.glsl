@@ -129,7 +129,11 @@ void main() {
     vec3 sum = vec3(0.0);
     float covered = 0.0, keptShare = 0.0;
     for (int i = 0; i < keptCount; ++i) {
-      ++iterations;
+#ifdef MASKED
+      iterations += 26 + (1 + OVERLAP_CORNERS) * kConeMaskPoints;
+#else
+      iterations += 26;
+#endif
       const uint triangle = kept[i].y;
       const uvec3 vertices = sceneTriangle(triangle);
       const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y),
@@ -143,6 +147,7 @@ void main() {
       if (covered >= 0.99999) break;
 #endif
     }
+    if (iterations > mostIterations) cutShort = true;
     result = cutShort ? vec4(uintBitsToFloat(0x7fc00000u)) : filled(sum, covered, direction.xyz, direction.w);
     counts = vec4(float(met), float(keptCount), max(metShare - keptShare, 0.0), covered);
   }
