@@ -2,6 +2,8 @@
 // The pairs that remain: each ray of the node with the triangle. Neighbours share the triangle. Of cones (CONES): the pairs
 // themselves, with their ranks among those of their tile.
 uniform ivec2 sizePx;
+#include "renderer/frame/frame_bindings.h"
+#include "renderer/techniques/reflections/ray_hierarchy/ray_hierarchy_bindings.h"
 #ifdef CONES
 #include "renderer/techniques/reflections/ray_hierarchy/tiles.glsl"
 #else
