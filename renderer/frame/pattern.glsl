@@ -41,3 +41,31 @@ float fractalNoise(vec3 at, int octaves) {
   }
   return total > 0.0 ? sum / total : 0.0;
 }
+
+// Mean over an interval of a square wave that is 1 from 0 to 1 and -1 from 1 to 2.
+float squareWaveOver(float at, float wide) {
+  if (wide < 1e-3) return fract(0.5 * at) < 0.5 ? 1.0 : -1.0;
+  // Its integral from 0 on.
+  const vec2 ends = 2.0 * fract(0.5 * (at + vec2(-0.5, 0.5) * wide));
+  const vec2 sums = 1.0 - abs(ends - 1.0);
+  return (sums.y - sums.x) / wide;
+}
+
+// Mean of the checker over a box.
+float checkerOver(vec3 at, vec3 wide) {
+  return squareWaveOver(at.x, wide.x) * squareWaveOver(at.y, wide.y) * squareWaveOver(at.z, wide.z);
+}
+
+// Noise without the octaves that a width blurs: those whose lattice is finer fade out.
+float fractalNoiseOver(vec3 at, int octaves, float wide) {
+  float sum = 0.0, amplitude = 1.0, total = 0.0;
+  for (int i = 0; i < octaves; ++i) {
+    const float left = 1.0 - smoothstep(0.5, 1.5, wide);
+    if (left > 0.0) sum += left * amplitude * valueNoise(at + vec3(17.31, 7.67, 31.13) * float(i));
+    total += amplitude;
+    amplitude *= 0.5;
+    at *= 2.0;
+    wide *= 2.0;
+  }
+  return total > 0.0 ? sum / total : 0.0;
+}

@@ -16,11 +16,25 @@ uniform float sunRadius;  // angular radius of the light seen from the scene, ra
 float sunShare(ivec2 pixel, SeenPoint seen);
 #endif
 
+#ifdef PATTERN_WIDTH
+// Patterns are the mean over a square of this width on the surface, world units; set both before.
+float patternWidth = 0.0;
+vec3 patternNormal = vec3(0.0);
+#endif
+
 vec3 patterned(SurfaceMaterial material, vec3 position) {
 #ifdef PATTERN
   if (material.pattern == kPatternNone) return material.albedo;
   const vec3 at = (position - material.patternOrigin) * material.patternFrequency;
+#ifdef PATTERN_WIDTH
+  // Along each axis of the solid texture as far as the surface extends along it.
+  const vec3 wide = patternWidth * material.patternFrequency * sqrt(max(1.0 - patternNormal * patternNormal, 0.0));
+  const float s = material.pattern == kPatternChecker
+                      ? checkerOver(at, wide)
+                      : fractalNoiseOver(at, material.patternOctaves, max(wide.x, max(wide.y, wide.z)));
+#else
   const float s = material.pattern == kPatternChecker ? checker(at) : fractalNoise(at, material.patternOctaves);
+#endif
   return clamp(material.albedo * (1.0 + material.patternContrast * s), 0.0, 1.0);
 #else
   return material.albedo;

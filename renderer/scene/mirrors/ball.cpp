@@ -9,12 +9,18 @@ namespace {
 
 struct MirrorBallSettings {
   int tessellation = 48;
-  double reflectance = 0.8;
+  double reflectance = 0.8, glossRad = 0.0;
   static const SettingsTable<MirrorBallSettings>& table() {
     using S = MirrorBallSettings;
     static const SettingsTable<S> kTable = {
         {&S::tessellation, "tessellation", {1, 128}, "segments", "Segments in a quarter circle of the ball"},
-        {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that the ball reflects"}};
+        {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that the ball reflects"},
+        {&S::glossRad,
+         "gloss",
+         {0.0, 1.0},
+         "rad",
+         "Half-angle of the cone from which the ball gathers light",
+         "Roger 2008, Fig. 5.10"}};
     return kTable;
   }
 };
@@ -25,7 +31,7 @@ Scene buildMirrorBall(const MirrorBallSettings& settings) {
   Scene scene;
   addCheckeredGround(scene, 6.0, 0.25);
   addPart(scene, ellipsoid(centre, glm::dvec3(0.5), settings.tessellation),
-          mirrorMaterial(settings.reflectance));
+          mirrorMaterial(settings.reflectance, settings.glossRad));
   addPart(scene, "touching box", box({0.5, 0.3, -0.2}, {0.8, 0.7, 0.2}), {0.7F, 0.25F, 0.2F});
   addPart(scene, "box", box({-1.2, 0.0, 0.2}, {-0.8, 0.6, 0.6}), {0.25F, 0.5F, 0.7F});
   addPart(scene, "cone", frustum({0.2, 0.0, 1.0}, {0.2, 0.5, 1.0}, 0.2, 0.0, 48), {0.3F, 0.6F, 0.3F});

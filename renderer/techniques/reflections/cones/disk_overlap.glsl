@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a convex polygon of up to four corners has in common with the unit disk around 0, as diskOverlapByEdges() in
+// What a convex polygon of up to OVERLAP_CORNERS corners has in common with the unit disk around 0, as diskOverlapByEdges() in
 // disk_overlap.h, in single precision: x is the area, yz the centroid.
+#ifndef OVERLAP_CORNERS
+#define OVERLAP_CORNERS 4
+#endif
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -33,7 +36,7 @@ vec3 edgeSums(vec2 p, vec2 q) {
   return sums;
 }
 
-vec3 diskOverlap(in vec2 corners[4], int count) {
+vec3 diskOverlap(in vec2 corners[OVERLAP_CORNERS], int count) {
   if (count < 3) return vec3(0.0);
   bool inside = true;
   for (int i = 0; i < count; ++i) {

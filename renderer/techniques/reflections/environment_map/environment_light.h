@@ -9,6 +9,7 @@
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/techniques/reflections/environment_map/cube_map.h"
+#include "renderer/techniques/reflections/environment_map/surroundings.h"
 #include "renderer/techniques/reflections/view_raster.h"
 #include "renderer/techniques/technique.h"
 
@@ -127,21 +128,6 @@ class EnvironmentLight {
   static std::vector<Quantity> counters();
 
  private:
-  struct Layer {
-    Layer(frame::Frame& frame, int resolution, const std::vector<uint32_t>& partOf, ViewRaster::Shown shown,
-          bool mipLevels)
-        : raster(frame, glm::ivec2(resolution), partOf, false, shown), map(resolution, mipLevels) {}
-    ViewRaster raster;
-    CubeMap map;
-  };
-  /// The mirror with the largest surface: its part, and the middle of its box relative to the anchor.
-  struct Reflector {
-    uint32_t part = ViewRaster::kNoGroup;
-    glm::dvec3 middle{0.0};
-  };
-  static Reflector largestReflector(const scene::Scene& scene, glm::dvec3 anchor);
-  void drawFace(frame::Frame& frame, int face);
-  void shadeFace(frame::Frame& frame, const Layer& layer, int face);
   void prefilter(const PrefilteredLobe& lobe);
   void look(frame::Frame& frame, const frame::MirrorRays& rays, const gl::Program& program,
             const gl::Texture& target);
@@ -149,9 +135,8 @@ class EnvironmentLight {
   EnvironmentLightSettings settings_;
   frame::ShadedSetting shading_;
   bool under_;
-  Reflector reflector_;
-  const gl::Program *face_ = nullptr, *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
-  std::optional<Layer> first_, second_;
+  const gl::Program *prefilter_ = nullptr, *look_ = nullptr, *countLook_ = nullptr;
+  std::optional<Surroundings> surroundings_;
   std::optional<CubeMap> filtered_;
   std::optional<gl::Texture> fates_;
 };

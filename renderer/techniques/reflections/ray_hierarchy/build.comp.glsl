@@ -30,8 +30,12 @@ void main() {
       const vec4 origin = texelFetch(origins, at, 0);
       // Written so that a NaN is no ray.
       if (origin.w > 0.0 && all(lessThan(abs(origin.xyz), vec3(3.0e38))))
+#ifdef CONES
+        node = coneNode(origin, texelFetch(directions, at, 0));
+#else
         node = rayNode(reversed ? lightAt : origin.xyz,
                        reversed ? -texelFetch(directions, at, 0).xyz : texelFetch(directions, at, 0).xyz);
+#endif
       store(0u, at, node);
       if (clears) hits[at.y * sizePx.x + at.x] = uvec2(kFarthestBits, kHierarchyNoTriangle);
     } else {

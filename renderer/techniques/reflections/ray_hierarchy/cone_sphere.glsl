@@ -3,6 +3,10 @@
 // cone_sphere.h.
 #include "renderer/techniques/reflections/ray_hierarchy/ray_hierarchy_bindings.h"
 
+#ifdef CONES
+uniform float farthest;  // where cones end
+#endif
+
 const float kInflation = 1.9073486e-6;  // 16 epsilon of float
 
 float halfAngle(vec3 a, vec3 b) {
@@ -25,6 +29,14 @@ void includePart(inout ConeSphere whole, ConeSphere part) {
 const ConeSphere kNoRays = ConeSphere(vec3(0.0), -1.0, vec3(0.0, 0.0, 1.0), 0.0);
 
 ConeSphere rayNode(vec3 origin, vec3 direction) { return ConeSphere(origin, 0.0, normalize(direction), kInflation); }
+
+// A cone: point on its axis and radius there, direction and growth of the radius per unit of distance. The bundle of rays
+// that start within that radius and diverge no more contains it.
+ConeSphere coneNode(vec4 origin, vec4 direction) {
+  const float growth = direction.w;
+  return ConeSphere(origin.xyz, origin.w, normalize(direction.xyz),
+                    growth / (1.0 + sqrt(1.0 + growth * growth)) * (1.0 + kInflation) + kInflation);
+}
 
 #if MERGE == MERGE_MEAN
 ConeSphere merged(ConeSphere parts[4]) {
@@ -91,6 +103,10 @@ bool mayMeet(ConeSphere node, vec4 sphere) {
   const float along = dot(v, node.axis), beside = length(cross(v, node.axis));
   const float h = node.spread, one = 1.0 + h * h, cosine = 1.0 - h * h, sine = 2.0 * h;
   const float reach = node.radius + sphere.w + kInflation * (size.x + size.y + size.z);
+#ifdef CONES
+  // A cone's end is a plane: from its rim it is farther away than along the axis.
+  if (h < 1.0 && length(v) > farthest * one / cosine + reach) return false;
+#endif
 #if TEST == TEST_PRINTED
   return along * (sine / cosine) + reach * (one / cosine) >= beside;
 #else

@@ -4,12 +4,15 @@
 //   START   reads no pairs: all triangles of a batch with all nodes of level `fromLevel`, above which nothing is tested
 //   FINISH  takes the groups that found no room, and goes down to the rays on the spot
 //   SPILL   pairs without room go to a buffer of pairs that wait
+//   CONES   those that find no room mark their tiles as lacking pairs, on the way to the rays
 //   SPARSE  four places for each pair, valid or not, that a stream reduction packs; pairs from `capacity` on find no room
 uniform ivec2 sizePx;
 #include "renderer/compute/reduction_bindings.h"
 #include "renderer/frame/frame_bindings.h"
 #include "renderer/techniques/reflections/ray_hierarchy/nodes.glsl"
-#ifdef FINISH
+#if defined(FINISH) && defined(CONES)
+#include "renderer/techniques/reflections/ray_hierarchy/tiles.glsl"
+#elif defined(FINISH)
 #include "renderer/techniques/reflections/ray_hierarchy/nearest.glsl"
 #else
 layout(std430, binding = kHierarchyOutBuffer) writeonly buffer Out { uvec2 outPairs[]; };
@@ -26,7 +29,9 @@ layout(std430, binding = kHierarchyControlBuffer) buffer Control { HierarchyCont
 layout(std430, binding = kHierarchyLeftBuffer) buffer Left { uint leftGroups[]; };
 
 uniform uint capacity;
+#ifndef TILES
 uniform uint leafLevel;
+#endif
 #ifdef START
 uniform uint firstTriangle, triangleCount, fromLevel;
 #endif
@@ -39,6 +44,12 @@ uint nodeOf(uint level, ivec2 at) { return level << (2 * kNodeBits) | uint(at.y)
 #ifdef FINISH
 uniform int mostIterations;
 
+#ifdef CONES
+void meetAll(ivec2 at, uint triangle) { tiles[tileLacks(tileOf(at))] = 1u; }
+void cutShort() { tiles[tileCutShort()] = 1u; }
+#else
+void cutShort() { hits[sizePx.x * sizePx.y].distance = 1u; }
+
 // Rays of a node of the last level.
 void meetAll(ivec2 at, uint triangle) {
   for (int i = 0; i < 1 << (2u * leafLevel); ++i) {
@@ -46,6 +57,7 @@ void meetAll(ivec2 at, uint triangle) {
     if (all(lessThan(pixel, sizePx))) meet(pixel, triangle);
   }
 }
+#endif
 
 int iterations = 0;
 
@@ -56,7 +68,7 @@ void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
   while (true) {
     if (++iterations > mostIterations) {
       control.cutShort = 1u;
-      hits[sizePx.x * sizePx.y].distance = 1u;
+      cutShort();
       return;
     }
     if (meets && level > leafLevel) {

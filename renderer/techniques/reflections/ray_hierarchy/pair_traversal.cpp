@@ -47,12 +47,15 @@ gl::ShaderDefines with(gl::ShaderDefines defines, std::initializer_list<const ch
 
 }  // namespace
 
-PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& settings, bool shadows)
+PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& settings, bool shadows,
+                             HierarchyLeaves leaves)
     : settings_(settings),
+      leaves_(leaves),
       sizePx_(frame.sizePx()),
       triangleCount_(frame.gpuScene().triangleCount()),
       mostIterations_(frame.context().device().software ? 60000 : 0x7fffffff),
-      hits_((int64_t{sizePx_.x} * sizePx_.y + 1) * 8, nullptr),
+      // Of cones: two words for each tile, of which there are no more than pixels, and the tail.
+      hits_((int64_t{sizePx_.x} * sizePx_.y + 1) * 8 + int64_t{sizeof(GatheredTail)}, nullptr),
       readback_(sizeof(HierarchyControl)) {
   if (std::max(sizePx_.x, sizePx_.y) > kHierarchyMostSide)
     throw Error("a hierarchy over rays takes pictures of at most 16384 pixels a side", {},
@@ -66,6 +69,8 @@ PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& setti
   }
   leafLevel_ = static_cast<uint32_t>(log2Of(settings.leafSide));
   leafLevel_ = std::min(leafLevel_, static_cast<uint32_t>(levelFirst_.size() - 1));
+  tileCount_ =
+      static_cast<uint32_t>(levelSize(leafLevel_).x) * static_cast<uint32_t>(levelSize(leafLevel_).y);
   startLevel_ = leafLevel_;
   const auto nodesAt = [&](uint32_t level) { return levelSize(level).x * levelSize(level).y; };
   while (nodesAt(startLevel_) > settings.startNodes) ++startLevel_;
@@ -104,6 +109,7 @@ PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& setti
   control_.emplace(int64_t{sizeof(HierarchyControl)}, nullptr);
   left_.emplace(std::max(groupsFor(capacity_), groupsFor(batch) * parents) * int64_t{4}, nullptr);
   hits_.clearUint(0);
+  if (leaves_ == HierarchyLeaves::Cones) gathered_.emplace(capacity_ * kGatheredBytes, nullptr);
   if (spills())
     for (auto& waiting : waiting_) waiting.emplace(spills()->room * kPairBytes);
   if (separate()) {
@@ -120,6 +126,7 @@ void PairTraversal::compilePrograms(gl::ProgramCache& cache, bool shadows) {
   gl::ShaderDefines defines;
   if (spills()) defines["SPILL"] = "1";
   if (separate()) defines["SPARSE"] = "1";
+  if (leaves_ == HierarchyLeaves::Cones) defines["CONES"] = "1";
   controlProgram_ = &cache.compute(kHierarchyFolder + "control.comp.glsl", defines);
   defineEnum(defines, "MERGE", settings_.merge);
   defineEnum(defines, "TEST", settings_.test);
@@ -139,15 +146,6 @@ void PairTraversal::compilePrograms(gl::ProgramCache& cache, bool shadows) {
 
 glm::ivec2 PairTraversal::levelSize(uint32_t level) const {
   return (sizePx_ + (1 << level) - 1) >> static_cast<int>(level);
-}
-
-int64_t PairTraversal::bytes() const {
-  int64_t bytes = nodes_->bytes() + control_->bytes() + left_->bytes() + hits_.bytes();
-  for (const auto& stream : streams_) bytes += stream->bytes();
-  for (const auto& waiting : waiting_)
-    if (waiting) bytes += waiting->bytes();
-  if (separate()) bytes += sparse_->bytes() + reduced_->bytes() + reduction_->bytes();
-  return bytes;
 }
 
 void PairTraversal::setLevels(const gl::Program& program) const {
@@ -180,7 +178,7 @@ void PairTraversal::build(const RayTextures& rays, const glm::vec3* light) {
   buildProgram_->set("lastLevel", startLevel_);
   for (uint32_t from = 0; from == 0 || from < startLevel_; from += kBuildLevels) {
     buildProgram_->set("fromLevel", from);
-    buildProgram_->set("clears", from == 0 && !light ? 1 : 0);
+    buildProgram_->set("clears", from == 0 && !light && !gathered_ ? 1 : 0);
     buildProgram_->dispatch(levelSize(from), glm::ivec2(kBuildSide));
     storageBarrier();
   }
@@ -210,8 +208,14 @@ void PairTraversal::configure(const frame::Frame& frame, const Programs& program
     program->set("fromLevel", startLevel_);
     if (spills()) program->set("spillCapacity", static_cast<uint32_t>(spills()->room));
   }
+  for (const gl::Program* program :
+       {programs.start, programs.finishStart, programs.expand, programs.finish, programs.resolve}) {
+    program->set("farthest", farthest_);
+    program->set("tileCount", tileCount_);
+  }
   for (const gl::Program* program : {programs.finishStart, programs.finish, programs.resolve})
     frame::configureRayOrigins(*program, frame.gpuScene());
+  programs.resolve->set("gatheredRoom", gatheredRoom());
   programs.resolve->set("sizePx", sizePx_);
   programs.resolve->set("leafLevel", leafLevel_);
 }
@@ -222,7 +226,10 @@ void PairTraversal::bind(frame::Frame& frame, Buffers use, const gl::Buffer* out
   control_->bindStorage(kHierarchyControlBuffer);
   left_->bindStorage(kHierarchyLeftBuffer);
   if (use == Buffers::Rays) {
-    frame.geometry().bindStorage();
+    if (gathered_)
+      gathered_->bindStorage(kHierarchyGatheredBuffer);
+    else
+      frame.geometry().bindStorage();
     hits_.bindStorage(kHierarchyHitsBuffer);
   } else {
     out->bindStorage(kHierarchyOutBuffer);
@@ -325,6 +332,7 @@ void PairTraversal::trace(frame::Frame& frame, const RayTextures& rays, const st
                           const glm::vec3* light) {
   const Programs& programs = light ? shadow_ : nearest_;
   const std::string folder = "reflections/";
+  if (gathered_) hits_.clearUint(0);
   frame.passes().setBytesHeld(folder + "build_" + name, nodes_->bytes());
   {
     const auto scope = frame.passes().open(folder + "build_" + name);
@@ -362,45 +370,6 @@ void PairTraversal::trace(frame::Frame& frame, const RayTextures& rays, const st
     resolve(frame, programs);
     if (spills()) runLaterBatches(frame, number, programs);
   }
-}
-
-void PairTraversal::endFrame() {
-  if (std::holds_alternative<HalvedBatches>(settings_.overflow)) readback_.copy(*control_, batches_.size());
-}
-
-void PairTraversal::halveBatches() {
-  uint64_t tag = 0;
-  const auto* control = static_cast<const HierarchyControl*>(readback_.take(tag));
-  if (!control || tag != batches_.size() || control->leftEver == 0) return;
-  std::vector<Batch> out;
-  auto more = static_cast<int64_t>(mostBatches_) - static_cast<int64_t>(batches_.size());
-  for (size_t i = 0; i < batches_.size(); ++i) {
-    const Batch& batch = batches_[i];
-    if (control->batchLeft[i] == 0 || batch.count < 2 || more <= 0) {
-      out.push_back(batch);
-      continue;
-    }
-    --more;
-    const uint32_t half = batch.count / 2;
-    out.push_back({batch.first, half});
-    out.push_back({batch.first + half, batch.count - half});
-  }
-  batches_ = std::move(out);
-}
-
-std::vector<glm::uvec2> PairTraversal::lastPairs() const {
-  const HierarchyControl control = control_->read<HierarchyControl>(0, 1)[0];
-  return streams_[reading_]->read<glm::uvec2>(0, control.inputs);
-}
-
-PairTraversal::Counts PairTraversal::counts() const {
-  Counts out;
-  out.control = control_->read<HierarchyControl>(0, 1)[0];
-  out.tests = testsOfFrame_;
-  for (uint32_t level = leafLevel_ + 1; level <= startLevel_; ++level)
-    out.tests += 4 * uint64_t{out.control.pairsAt[level]};
-  out.batches = static_cast<int>(batches_.size());
-  return out;
 }
 
 }  // namespace limen::techniques

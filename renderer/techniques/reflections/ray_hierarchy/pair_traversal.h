@@ -26,11 +26,20 @@ struct RayTextures {
   const gl::Texture* from;        ///< R32UI, the triangle that each leaves and cannot meet
 };
 
+/// What the hierarchy's leaves are.
+enum class HierarchyLeaves {
+  Rays,  ///< rays, of each of which the nearest triangle is found
+  /// Cones: w of an origin is the radius there, w of a direction the growth of the radius per unit of
+  /// distance. Of each node of the last level all triangles that its cones may meet are gathered.
+  Cones
+};
+
 /// Nearest triangles of rays without a structure over the triangles: a hierarchy over the rays, and all
 /// triangles through it, level by level (Roger 2008, sections 3.3 and 3.4).
 class PairTraversal {
  public:
-  PairTraversal(frame::Frame& frame, const TraversalSettings& settings, bool shadows);
+  PairTraversal(frame::Frame& frame, const TraversalSettings& settings, bool shadows,
+                HierarchyLeaves leaves = HierarchyLeaves::Rays);
 
   /// Once a frame, before the others: spheres around triangles, batches as earlier frames advise.
   void beginFrame(frame::Frame& frame);
@@ -44,6 +53,18 @@ class PairTraversal {
 
   /// NearestHit per pixel (meet.glsl), then one whose distance is not 0 if results are worthless.
   const gl::Buffer& hits() const { return hits_; }
+
+  // Of cones. A tile is a node of the last level, numbered by rows.
+  /// Pairs of each tile, then GatheredTail, then for each tile whether it lacks pairs that found no room.
+  const gl::Buffer& tiles() const { return hits_; }
+  /// Three numbers for each pair that was gathered, in any order: tile, rank within it, triangle.
+  const gl::Buffer& gathered() const { return *gathered_; }
+  uint32_t gatheredRoom() const { return static_cast<uint32_t>(capacity_); }
+  uint32_t tileCount() const { return tileCount_; }
+  const gl::Buffer& spheres() const { return *spheres_; }
+  /// Nodes and cones are cut off at this distance from where they start; infinite if never called.
+  void setFarthest(float distance) { farthest_ = distance; }
+
   int64_t bytes() const;
 
   struct Counts {
@@ -92,6 +113,9 @@ class PairTraversal {
                                                   uint32_t level) const;
 
   TraversalSettings settings_;
+  HierarchyLeaves leaves_;
+  float farthest_ = 3.0e38F;
+  uint32_t tileCount_ = 0;
   glm::ivec2 sizePx_;
   uint32_t triangleCount_, startLevel_ = 0, leafLevel_ = 0;
   std::vector<uint32_t> levelFirst_;
@@ -105,6 +129,7 @@ class PairTraversal {
   std::array<std::optional<HostBuffer>, 2> waiting_;  ///< pairs for later batches
   std::optional<gl::Buffer> sparse_, reduced_;
   std::optional<compute::StreamReduction> reduction_;
+  std::optional<gl::Buffer> gathered_;
   gl::Buffer hits_;
   LateReadback readback_;
   int64_t capacity_ = 0;

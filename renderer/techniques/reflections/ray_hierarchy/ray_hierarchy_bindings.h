@@ -55,6 +55,17 @@ static_assert(offsetof(HierarchyControl, expandX) == 16 && offsetof(HierarchyCon
               sizeof(HierarchyControl) == 160 + 4 * kHierarchyMostBatches);
 #endif
 
+// Of cones, behind the pairs' counts of all tiles.
+struct GatheredTail {  // std430
+  uint gathered;       // pairs, those that found no room included
+  uint cutShort;
+  uint unused0, unused1;
+};
+const int kGatheredBytes = 12;
+#ifdef __cplusplus
+static_assert(sizeof(GatheredTail) == 16);
+#endif
+
 // Storage; 0 and 1 are the scene's, and where points are shaded 2 to 5 its surfaces'.
 const uint kHierarchyNodesBuffer = 2u;
 const uint kHierarchySpheresBuffer = 3u;
@@ -66,6 +77,7 @@ const uint kHierarchyLeftBuffer = 7u;
 const uint kHierarchyOutBuffer = 6u;
 const uint kHierarchySpillBuffer = 0u;
 const uint kHierarchyReducedBuffer = 0u;
+const uint kHierarchyGatheredBuffer = 0u;
 
 // What the shader between two steps does.
 const uint kControlBatch = 0u;       // a batch begins

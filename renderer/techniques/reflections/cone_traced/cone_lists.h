@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "renderer/compute/prefix_sum.h"
+#include "renderer/techniques/reflections/ray_hierarchy/pair_traversal.h"
+
+namespace limen::techniques {
+
+/// Of each tile of cones the triangles that they may meet: counted by the traversal, then scanned and
+/// scattered.
+class ConeLists {
+ public:
+  ConeLists(frame::Frame& frame, const PairTraversal& traversal);
+  void make(const PairTraversal& traversal) const;
+  /// Two numbers for each tile: its first triangle and how many, kConeUnlisted if it lacks some; then the
+  /// triangles.
+  const gl::Buffer& lists() const { return lists_; }
+  int64_t bytes() const { return lists_.bytes() + sums_.bytes() + scan_.bytes(); }
+
+ private:
+  const gl::Program& program_;
+  compute::PrefixSum scan_;
+  gl::Buffer sums_, lists_;
+};
+
+}  // namespace limen::techniques
