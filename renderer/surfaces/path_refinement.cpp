@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/refined_parts.h"
 
 namespace limen::surfaces {

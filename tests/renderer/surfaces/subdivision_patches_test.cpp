@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/scene/curved/double_torus.h"
+#include "renderer/scene/curved/subdivision_cages.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/bezier.h"
@@ -245,6 +246,58 @@ TEST(AccPatches, HaveTheSurfacesBoundary) {
       EXPECT_LT(glm::length(evaluate(set, set.patches[f], rectanglePoint(u, 0.0)).p -
                             catmullClarkPoint(mesh, f, u, 0.0).position),
                 1e-9);
+}
+
+/// SC-23: along creases and boundaries, at whose vertices two faces meet on this side, or one at a corner,
+/// the patches and their normal field are the surface.
+TEST(AccPatches, AreExactAtCreasesAndBoundaries) {
+  const PolygonMesh mesh = sheet(kInfinitelySharp);
+  const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f)
+    for (const double u : {0.02, 0.4, 0.97})
+      for (const double v : {0.05, 0.5, 0.9}) {
+        const LimitPoint exact = catmullClarkPoint(mesh, f, u, v);
+        const DomainPoint at = rectanglePoint(u, v);
+        // A few dozen roundings of numbers up to 5.
+        EXPECT_LT(glm::length(evaluate(set, set.patches[f], at).p - exact.position), 1e-13) << f;
+        EXPECT_LT(angleDeg(normalAt(set, set.patches[f], at).direction, exact.normal), 1e-6) << f;
+      }
+}
+
+/// Extraordinary vertices on creases, of which one side may be regular and the other not; corners. Sharp
+/// edges are the surface's curves; across the others the normal field does not jump, and the geometry does.
+TEST(AccPatches, TangentPatchesAgreeAcrossTheSmoothEdgesOfCreasedMeshes) {
+  for (const scene::CageShape shape : {scene::CageShape::CreasedBlock, scene::CageShape::CorneredBlock})
+    for (const int steps : {0, 1, 2}) {
+      const PolygonMesh mesh = catmullClark(scene::quadCage(shape), steps);
+      const MeshTopology topology(mesh);
+      const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+      double field = 0.0, curve = 0.0;
+      size_t smooth = 0, sharp = 0;
+      for (uint32_t f = 0; f < mesh.faces.size(); ++f)
+        for (int side = 0; side < 4; ++side) {
+          const uint32_t a = mesh.faces[f][size_t(side)], b = mesh.faces[f][size_t(side + 1) % 4];
+          const Neighbour& beyond = set.neighbours[f][size_t(side)];
+          ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+          const bool isSharp = topology.sharpness(mesh, edgeKey(a, b)) >= kInfinitelySharp;
+          ++(isSharp ? sharp : smooth);
+          for (int q = 1; q < 10; ++q) {
+            const DomainPoint at = sidePoint(Domain::Rectangle, side, q, 10),
+                              there = sidePoint(Domain::Rectangle, beyond.side, 10 - q, 10);
+            if (isSharp)
+              curve = std::max(curve, glm::length(evaluate(set, set.patches[f], at).p -
+                                                  catmullClarkPoint(mesh, f, at.u, at.v).position));
+            else
+              field = std::max(field,
+                               angleDeg(normalAt(set, set.patches[f], at).direction,
+                                        normalAt(set, set.patches[size_t(beyond.patch)], there).direction));
+          }
+        }
+      EXPECT_GT(smooth, 0U);
+      EXPECT_GT(sharp, 0U);
+      EXPECT_LT(field, 1e-5) << int(shape) << ' ' << steps;
+      EXPECT_LT(curve, 1e-9) << int(shape) << ' ' << steps;
+    }
 }
 
 }  // namespace

@@ -35,5 +35,18 @@ TEST_F(ScanLines, TakeFewerPartsWhereMoreIsTolerated) {
   }
 }
 
+/// Parts that are halved differently meet along chords: no pixel inside shows what lies behind, however much
+/// is tolerated. A hole is a pixel that all rays around its centre hit; a wrong place may also be a
+/// silhouette's that moved by the tolerance, of 1,000 px at most.
+TEST_F(ScanLines, LeaveNoGapsBetweenParts) {
+  const scene::Scene teapot = makeScene("curved/teapot");
+  for (const double tolerance : {0.125, 0.25, 0.5}) {
+    const Rendered made =
+        render(teapot, "isocurves/lane_carpenter", {{"tolerance_px", tolerance}}, {192, 144}, true);
+    EXPECT_EQ(made.counter("hole_px"), 0) << tolerance;
+    EXPECT_LE(made.counter("wrong_place_px"), 2 * tolerance * 1000) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace limen::techniques
