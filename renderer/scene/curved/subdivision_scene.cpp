@@ -9,17 +9,19 @@
 #include "renderer/surfaces/loop_subdivision.h"
 #include "renderer/surfaces/patch_builder.h"
 #include "renderer/surfaces/pccm_patches.h"
+#include "renderer/surfaces/pm_patches.h"
 #include "renderer/surfaces/qas_patches.h"
 
 namespace limen::scene {
 namespace {
 
-enum class Approximation { Acc, AccTangents, CPatches, Pccm, Qas };
-constexpr EnumNames<Approximation, 5> enumNames(Approximation) {
+enum class Approximation { Acc, AccTangents, CPatches, Pccm, Pm, Qas };
+constexpr EnumNames<Approximation, 6> enumNames(Approximation) {
   return {{{{Approximation::Acc, "acc"},
             {Approximation::AccTangents, "acc_tangents"},
             {Approximation::CPatches, "c_patches"},
             {Approximation::Pccm, "pccm"},
+            {Approximation::Pm, "pm_patches"},
             {Approximation::Qas, "qas"}}}};
 }
 
@@ -32,7 +34,7 @@ struct SubdivisionSettings {
     static const SettingsTable<S> kTable = {
         {&S::shape, "shape",
          "Two joined rings of 48 quads; or a block of 6, smooth, with sharp edges around its top and its "
-         "bottom, or with two upright ones as well; all but pccm keep these edges"},
+         "bottom, or with two upright ones as well; all but pccm and pm_patches keep these edges"},
         {&S::approximation, "approximation",
          "Bicubic patches over the quads of Catmull-Clark's surface, shaded with their own normals or "
          "with those of tangent patches (Loop and Schaefer 2008); four quartic triangles for each quad that "
@@ -52,8 +54,8 @@ struct SubdivisionSettings {
     if (approximation == Approximation::Pccm && steps < 1)
       throw Error("quads have two extraordinary vertices", "steps", "pccm needs a step or more");
     const bool sharp = shape == CageShape::CreasedBlock || shape == CageShape::CorneredBlock;
-    if (sharp && approximation == Approximation::Pccm)
-      throw Error("pccm rounds sharp edges off", "shape", "use acc, acc_tangents or c_patches");
+    if (sharp && (approximation == Approximation::Pccm || approximation == Approximation::Pm))
+      throw Error("pccm and pm_patches round sharp edges off", "shape", "use acc, acc_tangents or c_patches");
   }
 };
 
@@ -63,6 +65,7 @@ surfaces::PatchSet approximated(surfaces::PolygonMesh cage, const SubdivisionSet
   const surfaces::PolygonMesh mesh = surfaces::catmullClark(std::move(cage), settings.steps);
   if (settings.approximation == Approximation::CPatches) return surfaces::cPatches(mesh);
   if (settings.approximation == Approximation::Pccm) return surfaces::pccmPatches(mesh);
+  if (settings.approximation == Approximation::Pm) return surfaces::pmPatches(mesh);
   return surfaces::accPatches(mesh, settings.approximation == Approximation::AccTangents
                                         ? surfaces::AccNormals::TangentPatches
                                         : surfaces::AccNormals::Geometry);

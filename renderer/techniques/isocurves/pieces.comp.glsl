@@ -11,8 +11,9 @@ const int kStackSize = 40;  // two halvings of 4,096 and what waits beside them
 shared uvec4 stack[kStackSize];  // low and high u, low and high v, in 1 / kMostIsocurves
 shared int stackSize;
 
-vec4 whole_[16];
-vec4 part[16];  // control points of the rectangle
+#define FOUR_ZEROS vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)
+vec4 whole_[16] = vec4[16](FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS);  // of the patch
+vec4 part[16] = vec4[16](FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS);  // of the rectangle
 
 vec4 blossom(vec4 a, vec4 b, vec4 c, vec4 d, float r, float s, float t) {
   const vec4 ab = mix(a, b, r), bc = mix(b, c, r), cd = mix(c, d, r);

@@ -159,7 +159,9 @@ TEST(PccmPatches, ComeCloserWithEachStep) {
       // Of a surface 2 wide whose quads are a fifth wide and less.
       EXPECT_LT(most, 0.03) << valence;
       // Shapes around vertices of high valence shrink by less than half a step.
-      if (last > 0.0) EXPECT_LT(most, 0.8 * last) << valence;
+      if (last > 0.0) {
+        EXPECT_LT(most, 0.8 * last) << valence;
+      }
       last = most;
     }
   }

@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of a fragment at one level, and its rules of subdivision (Catmull and Clark 1978). Sums are grouped so that they
-// give the same bits from whichever fragment a vertex or an edge is seen.
+// give the same bits from whichever fragment a vertex or an edge is seen. LISTED: fragments stop at different levels.
 #include "renderer/techniques/subdivision/fragments/fragment_bindings.h"
 
 layout(std430, binding = kFragmentsBuffer) readonly buffer Fragments { FragmentRecord fragments[]; };
 layout(std430, binding = kFragmentPointsBuffer) readonly buffer FragmentPoints { vec4 fragmentPoints[]; };
 uniform uint fragmentCount, ringPoints;
+#ifdef LISTED
+layout(std430, binding = kFragmentListsBuffer) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = kFragmentDispatchesBuffer) readonly buffer Dispatches { FragmentDispatch dispatches[]; };
+uint fragmentsOfLevel(uint level) { return dispatches[level].count; }
+uint listedFragment(uint level, uint i) { return lists[level * fragmentCount + i]; }
+#else
+uint fragmentsOfLevel(uint level) { return fragmentCount; }
+uint listedFragment(uint level, uint i) { return i; }
+#endif
 uniform int segments;  // of the level that is read
 
 uint gridPoints(int n) { return uint((n + 3) * (n + 3)); }
 uint blockPoints(int n) { return gridPoints(n) + ringPoints; }
 ivec2 gridPlace(uint local, int n) { return ivec2(local % uint(n + 3), local / uint(n + 3)) - 1; }
 
-FragmentRecord fragment_;
+FragmentRecord fragment_ = FragmentRecord(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 uint firstPoint = 0u, firstRing = 0u;
 
 void openFragment(uint number) {

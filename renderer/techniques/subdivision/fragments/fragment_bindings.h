@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 namespace limen::techniques {
+using glm::uvec3;
 #endif
 
 const int kFragmentGroup = 64;
@@ -33,12 +34,25 @@ const uint kFragmentSharpX = 16u;  // the side y = 0, from (0, 0) along x
 const uint kFragmentSharpY = 32u;
 const uint kFragmentMostEdges = 60u;  // of a ring
 
+// Of a level, where fragments stop at different ones: two DispatchIndirectCommands.
+struct FragmentDispatch {  // std430
+  uvec3 stepGroups;        // of the step that leads to it
+  uint count;              // fragments that reach it
+  uvec3 limitGroups;
+  uint listed;  // counts up while they are listed
+};
+#ifdef __cplusplus
+static_assert(sizeof(FragmentDispatch) == 32 && offsetof(FragmentDispatch, limitGroups) == 16);
+#endif
+
 const uint kFragmentsBuffer = 0u;
 const uint kFragmentPointsBuffer = 1u;    // of all fragments at one level: vec4
 const uint kFragmentTargetBuffer = 2u;    // at the next
 const uint kFragmentLevelsBuffer = 3u;    // bits 0..: of the fragment; 4.., 8.., 12.., 16..: of sides 0 to 3
 const uint kFragmentControlsBuffer = 4u;  // numbers of control vertices
-const uint kFragmentCountsBuffer = 5u;    // uvec2: vertices, triangles
+const uint kFragmentListsBuffer = 4u;     // by level, fragmentCount each
+const uint kFragmentDispatchesBuffer = 6u;
+const uint kFragmentCountsBuffer = 5u;  // uvec2: vertices, triangles
 const uint kFragmentOffsetsBuffer = 5u;
 // kControlsBuffer is 6
 const uint kFragmentVerticesBuffer = 7u;  // TessellatedVertex

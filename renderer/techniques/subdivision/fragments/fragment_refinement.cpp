@@ -30,6 +30,10 @@ const gl::Program& fragmentProgram(gl::Context& context, const char* name,
       std::string("renderer/techniques/subdivision/fragments/") + name + ".comp.glsl", defines);
 }
 
+gl::ShaderDefines listing(const FlatLevels* flat) {
+  return flat ? gl::ShaderDefines{{"LISTED", "1"}} : gl::ShaderDefines{};
+}
+
 int64_t fittingBytes(int64_t count, int64_t bytesEach) {
   const int64_t bytes = count * bytesEach;
   if (bytes > int64_t{3} << 30)
@@ -46,11 +50,15 @@ FragmentRefinement::FragmentRefinement(gl::Context& context, const FragmentLayou
       steps_(steps),
       flat_(flat ? std::optional(*flat) : std::nullopt),
       gather_(fragmentProgram(context, "gather")),
-      refine_(fragmentProgram(context, "refine")),
-      limits_(fragmentProgram(context, "limits")),
+      refine_(fragmentProgram(context, "refine", listing(flat))),
+      limits_(fragmentProgram(context, "limits", listing(flat))),
       levelsProgram_(fragmentProgram(context, "levels",
                                      flat ? gl::ShaderDefines{} : gl::ShaderDefines{{"UNIFORM", "1"}})),
       indicesProgram_(fragmentProgram(context, "indices")),
+      lists_(fragmentProgram(context, "lists")),
+      dispatches_(fragmentProgram(context, "dispatches")),
+      listBuffer_(flat ? fittingBytes(int64_t{count_} * (steps + 1), 4) : 16, nullptr),
+      dispatchBuffer_(std::vector<FragmentDispatch>(static_cast<size_t>(steps) + 1)),
       fragments_(layout.fragments),
       controls_(layout.controls),
       points_{gl::Buffer(fittingBytes(count_ * pointsOf(steps - steps % 2), 16), nullptr),
@@ -76,7 +84,8 @@ int64_t FragmentRefinement::pointsOf(int level) const {
 
 int64_t FragmentRefinement::bytes() const {
   return fragments_.bytes() + controls_.bytes() + points_[0].bytes() + points_[1].bytes() + levels_.bytes() +
-         counts_.bytes() + offsets_.bytes() + vertices_.bytes() + indices_.bytes() + scan_.bytes();
+         counts_.bytes() + offsets_.bytes() + vertices_.bytes() + indices_.bytes() + scan_.bytes() +
+         listBuffer_.bytes() + dispatchBuffer_.bytes();
 }
 
 void FragmentRefinement::configure(const gl::Program& program, int level) const {
@@ -98,12 +107,41 @@ void FragmentRefinement::dispatch(const gl::Program& program, int64_t invocation
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void FragmentRefinement::dispatchLevel(const gl::Program& program, int level, int64_t each,
+                                       size_t groups) const {
+  if (!flat_) {
+    dispatch(program, each * count_);
+    return;
+  }
+  listBuffer_.bindStorage(kFragmentListsBuffer);
+  dispatchBuffer_.bindStorage(kFragmentDispatchesBuffer);
+  program.use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatchBuffer_.id());
+  glDispatchComputeIndirect(
+      static_cast<GLintptr>(static_cast<size_t>(level) * sizeof(FragmentDispatch) + groups));
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 /// Levels, where vertices and triangles go, and the triangles; levelsProgram_ is configured.
 void FragmentRefinement::list() const {
   levelsProgram_.set("mostLevel", static_cast<uint32_t>(steps_));
   counts_.bindStorage(kFragmentCountsBuffer);
   dispatch(levelsProgram_, count_);
   scan_.run(counts_, offsets_, count_);
+  if (flat_) {
+    lists_.use();
+    lists_.set("fragmentCount", count_);
+    levels_.bindStorage(kFragmentLevelsBuffer);
+    listBuffer_.bindStorage(kFragmentListsBuffer);
+    dispatchBuffer_.bindStorage(kFragmentDispatchesBuffer);
+    dispatch(lists_, count_);
+    dispatches_.use();
+    dispatches_.set("mostLevel", static_cast<uint32_t>(steps_));
+    dispatches_.set("ringPoints", ringPoints_);
+    dispatch(dispatches_, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  }
   indicesProgram_.use();
   indicesProgram_.set("fragmentCount", count_);
   levels_.bindStorage(kFragmentLevelsBuffer);
@@ -120,7 +158,7 @@ void FragmentRefinement::run(frame::Frame& frame, const gl::Buffer& controls) co
     offsets_.bindStorage(kFragmentOffsetsBuffer);
     vertices_.bindStorage(kFragmentVerticesBuffer);
     const int64_t row = (int64_t{1} << level) + 1;
-    dispatch(limits_, row * row * count_);
+    dispatchLevel(limits_, level, row * row, offsetof(FragmentDispatch, limitGroups));
   };
   {
     const auto scope = frame.passes().open("subdivision/refine");
@@ -150,7 +188,7 @@ void FragmentRefinement::run(frame::Frame& frame, const gl::Buffer& controls) co
     const auto scope = frame.passes().open("subdivision/refine");
     configure(refine_, level);
     refine_.set("sourceLevel", static_cast<uint32_t>(level));
-    dispatch(refine_, count_ * pointsOf(level + 1));
+    dispatchLevel(refine_, level + 1, pointsOf(level + 1), offsetof(FragmentDispatch, stepGroups));
   }
 }
 

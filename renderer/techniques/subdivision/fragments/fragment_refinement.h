@@ -42,13 +42,16 @@ class FragmentRefinement {
  private:
   int64_t pointsOf(int level) const;  ///< of a fragment
   void configure(const gl::Program& program, int level) const;
+  /// Of `level`, if levels differ: as many as its fragments need.
+  void dispatchLevel(const gl::Program& program, int level, int64_t each, size_t groups) const;
   static void dispatch(const gl::Program& program, int64_t invocations);
   void list() const;
 
   uint32_t count_, ringPoints_;
   int steps_;
   std::optional<FlatLevels> flat_;
-  const gl::Program &gather_, &refine_, &limits_, &levelsProgram_, &indicesProgram_;
+  const gl::Program &gather_, &refine_, &limits_, &levelsProgram_, &indicesProgram_, &lists_, &dispatches_;
+  gl::Buffer listBuffer_, dispatchBuffer_;  ///< where levels differ
   gl::Buffer fragments_, controls_, points_[2], levels_, counts_, offsets_, vertices_, indices_, totals_;
   compute::PrefixSum scan_;
 };

@@ -57,7 +57,7 @@ void main() {
   const uint number = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(kFragmentGroup);
   if (number >= fragmentCount) return;
 #ifdef UNIFORM
-  uint own = mostLevel, packed = mostLevel * 0x11111u;
+  uint own = mostLevel, all_ = mostLevel * 0x11111u;
 #else
   openFragment(number);
   vec3 net[16];
@@ -72,7 +72,7 @@ void main() {
     net[d.x + 4 * d.y] = insideCorner(corners[c], way, other);
   }
   // A cubic leaves its chord by an eighth of its second derivative, six times the difference, at most.
-  uint packed = 0u, own = 0u;
+  uint all_ = 0u, own = 0u;
   float u = 0.0, v = 0.0, twist = 0.0, closest = 1e30;
   for (int k = 0; k < 4; ++k) {
     const int across = 4 * k;
@@ -91,12 +91,12 @@ void main() {
     const vec3 a = net[starts[s]], b = net[starts[s] + strides[s]], c = net[starts[s] + 2 * strides[s]],
                d = net[starts[s] + 3 * strides[s]];
     const uint of = levelFor(0.75 * secondDifference(a, b, c, d) * pxAtDistance / nearestOf(a, b, c, d));
-    packed |= of << (4 + 4 * s);
+    all_ |= of << (4 + 4 * s);
     own = max(own, of);
   }
-  packed |= own;
+  all_ |= own;
 #endif
-  levels[number] = packed;
+  levels[number] = all_;
   const uint n = 1u << own;
   counts[number] = uvec2((n + 1u) * (n + 1u), 2u * n * n);
 }

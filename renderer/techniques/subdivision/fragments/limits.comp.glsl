@@ -62,8 +62,8 @@ vec3 normalAt(int x, int y) {
   return cross(4.0 * (right - left) + (ur - ul) + (dr - dl), 4.0 * (above - below) + (ur - dr) + (ul - dl));
 }
 
-uint firstVertex, own;  // of the fragment: its vertices, its level
-uvec4 position_, normal_;
+uint firstVertex = 0u, own = 0u;  // of the fragment: its vertices, its level
+uvec4 position_ = uvec4(0u), normal_ = uvec4(0u);
 
 void write(ivec2 place) {
   const uint at = firstVertex + uint(place.x) + ((1u << own) + 1u) * uint(place.y);
@@ -81,15 +81,15 @@ void writeSide(int side, uint sideLevel, int q) {
 
 void main() {
   const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(kFragmentGroup);
-  const uint row = uint(segments) + 1u, number = i / (row * row), local = i % (row * row);
-  if (number >= fragmentCount) return;
-  const uint packed = levels[number];
-  own = packed & 15u;
-  if (own < level) return;
+  const uint row = uint(segments) + 1u, at = i / (row * row), local = i % (row * row);
+  if (at >= fragmentsOfLevel(level)) return;
+  const uint number = listedFragment(level, at);
+  const uint all_ = levels[number];
+  own = all_ & 15u;
   const int x = int(local % row), y = int(local / row), last = segments;
   const bool onX = x == 0 || x == last, onY = y == 0 || y == last;
   const int sideX = x == 0 ? 3 : 1, sideY = y == 0 ? 0 : 2;
-  const uint levelX = packed >> (4 + 4 * sideX) & 15u, levelY = packed >> (4 + 4 * sideY) & 15u;
+  const uint levelX = all_ >> (4 + 4 * sideX) & 15u, levelY = all_ >> (4 + 4 * sideY) & 15u;
   if (onX && onY ? level > 0u : level != (onX ? levelX : (onY ? levelY : own))) return;
   openFragment(number);
   const vec3 n = normalAt(x, y);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A step of subdivision of all fragments that have not reached their level, an invocation a point of the finer ones.
+// A step of subdivision of the fragments that reach the next level, an invocation a point of theirs.
 #include "renderer/techniques/subdivision/fragments/fragment.glsl"
 
 layout(local_size_x = kFragmentGroup) in;
 layout(std430, binding = kFragmentTargetBuffer) writeonly buffer Target { vec4 target[]; };
-layout(std430, binding = kFragmentLevelsBuffer) readonly buffer Levels { uint levels[]; };
 uniform uint sourceLevel;
 
 vec3 ringEdgeAfter(int i) {
@@ -41,9 +40,10 @@ vec3 ringPointAfter(uint place) {
 
 void main() {
   const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(kFragmentGroup);
-  const uint size = blockPoints(2 * segments), number = i / size, local = i % size;
-  if (number >= fragmentCount || (levels[number] & 15u) <= sourceLevel) return;
+  const uint size = blockPoints(2 * segments), at = i / size, local = i % size;
+  if (at >= fragmentsOfLevel(sourceLevel + 1u)) return;
+  const uint number = listedFragment(sourceLevel + 1u, at);
   openFragment(number);
   const uint grid = gridPoints(2 * segments);
-  target[i] = vec4(local < grid ? gridPointAfter(gridPlace(local, 2 * segments)) : ringPointAfter(local - grid), 0.0);
+  target[number * size + local] = vec4(local < grid ? gridPointAfter(gridPlace(local, 2 * segments)) : ringPointAfter(local - grid), 0.0);
 }
