@@ -26,8 +26,9 @@ TessellatedPatch patch_ = TessellatedPatch(0u, 0u, 0u, 0u, ivec4(-1));
 
 // x and y in pixels from the top left corner times the distance along the view; z: unused; w: that distance.
 vec4 clipPoint(int i) {
-  const vec4 clip = anchorToClip * patchPoints[patch_.firstPoint + uint(i)];
-  return vec4((0.5 * clip.x + 0.5 * clip.w) * float(sizePx.x), (0.5 * clip.w - 0.5 * clip.y) * float(sizePx.y), 0.0, clip.w);
+  precise const vec4 clip = anchorToClip * patchPoints[patch_.firstPoint + uint(i)];
+  precise const vec4 out_ = vec4((0.5 * clip.x + 0.5 * clip.w) * float(sizePx.x), (0.5 * clip.w - 0.5 * clip.y) * float(sizePx.y), 0.0, clip.w);
+  return out_;
 }
 
 // Points, or curves, along u or v: degree times the largest distance of successive control points (Rockwood 1987).
@@ -44,11 +45,13 @@ uint stepsAlong(vec4 points[16], int stride, int across) {
 
 void plot(vec4 p, float u, float v) {
   if (!(p.w >= nearest)) return;
-  const ivec2 pixel = ivec2(floor(p.xy / p.w));
+  precise const vec2 at = p.xy / p.w;
+  const ivec2 pixel = ivec2(floor(at));
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, sizePx))) return;
   const uint depth = floatBitsToUint(nearest / p.w);
 #ifdef SURFACE_PASS
-  // Two programs may round differently: within 16 units in the last place it is the same point.
+  // Points are precise, so that both programs put the same ones into the same pixels; within 16 units in the last place a
+  // depth is that of the same point.
   if (depth + 16u < imageLoad(depths, pixel).x) return;
   const TessellatedVertex vertex = surfaceVertex(patch_, vec4(u, v, 1.0 - u, 1.0 - v));
   const vec3 normal = dot(vertex.normal, vertex.position - eye) > 0.0 ? -vertex.normal : vertex.normal;
@@ -68,11 +71,11 @@ struct Walk {
 
 Walk walkFrom(vec4 c[4], float t, float h) {
   const float s = 1.0 - t;
-  const vec4 a = mix(c[0], c[1], t), b = mix(c[1], c[2], t), d = mix(c[2], c[3], t);
-  const vec4 first = 3.0 * (s * s * (c[1] - c[0]) + 2.0 * s * t * (c[2] - c[1]) + t * t * (c[3] - c[2])),
+  precise const vec4 a = mix(c[0], c[1], t), b = mix(c[1], c[2], t), d = mix(c[2], c[3], t);
+  precise const vec4 first = 3.0 * (s * s * (c[1] - c[0]) + 2.0 * s * t * (c[2] - c[1]) + t * t * (c[3] - c[2])),
              second = 6.0 * (s * (c[2] - 2.0 * c[1] + c[0]) + t * (c[3] - 2.0 * c[2] + c[1])),
              third = 6.0 * (c[3] - 3.0 * c[2] + 3.0 * c[1] - c[0]);
-  Walk w;
+  precise Walk w;
   w.p = mix(mix(a, b, t), mix(b, d, t), t);
   w.d1 = h * first + 0.5 * h * h * second + h * h * h / 6.0 * third;
   w.d2 = h * h * second + h * h * h * third;
@@ -81,7 +84,6 @@ Walk walkFrom(vec4 c[4], float t, float h) {
 }
 
 void step_(inout Walk w) {
-  w.p += w.d1;
-  w.d1 += w.d2;
-  w.d2 += w.d3;
+  precise const vec4 p = w.p + w.d1, d1 = w.d1 + w.d2, d2 = w.d2 + w.d3;
+  w = Walk(p, d1, d2, w.d3);
 }

@@ -24,8 +24,10 @@ void main() {
   if (curve > curves) return;
   const float v = float(curve) / float(curves), s = 1.0 - v;
   vec4 c[4];
-  for (int i = 0; i < 4; ++i)
-    c[i] = s * s * s * points[i] + 3.0 * s * s * v * points[i + 4] + 3.0 * s * v * v * points[i + 8] + v * v * v * points[i + 12];
+  for (int i = 0; i < 4; ++i) {
+    precise const vec4 at = s * s * s * points[i] + 3.0 * s * s * v * points[i + 4] + 3.0 * s * v * v * points[i + 8] + v * v * v * points[i + 12];
+    c[i] = at;
+  }
 #ifdef ADAPTIVE
   // Steps are powers of two of the domain: halved where a point moves farther than the spacing, doubled where it moves
   // less than half of it (Lien, Shantz and Pratt 1987).
@@ -41,9 +43,8 @@ void main() {
     const vec4 halfway = w.p + 0.5 * w.d1 - 0.125 * w.d2 + 0.0625 * w.d3;
     const float there = halfway.w < nearest ? 1e30 : 2.0 * distance(w.p.xy / max(w.p.w, nearest), halfway.xy / halfway.w);
     if (max(moved, there) > spacing && width > 1u) {
-      w.d3 *= 0.125;
-      w.d2 = 0.25 * w.d2 - w.d3;
-      w.d1 = 0.5 * (w.d1 - w.d2);
+      precise const vec4 d3 = 0.125 * w.d3, d2 = 0.25 * w.d2 - d3, d1 = 0.5 * (w.d1 - d2);
+      w = Walk(w.p, d1, d2, d3);
       width >>= 1;
       continue;
     }
@@ -58,9 +59,8 @@ void main() {
     measureDrift(c, w.p, at, whole, whole / width);
 #endif
     if (max(moved, there) < 0.5 * spacing && at % (2u * width) == 0u && at + 2u * width <= whole) {
-      w.d1 = 2.0 * w.d1 + w.d2;
-      w.d2 = 4.0 * (w.d2 + w.d3);
-      w.d3 *= 8.0;
+      precise const vec4 d1 = 2.0 * w.d1 + w.d2, d2 = 4.0 * (w.d2 + w.d3), d3 = 8.0 * w.d3;
+      w = Walk(w.p, d1, d2, d3);
       width <<= 1;
     }
   }

@@ -199,7 +199,7 @@ class Isocurves : public Technique {
 
 const RegisteredTechnique<Isocurves> kIsocurvesRegistered{
     {.name = "isocurves/forward_differences",
-     .version = 1,
+     .version = 2,
      .summary = "Bicubic patches as dense curves of points by forward differences, with even or adaptive "
                 "steps and curves",
      .source = "Rockwood 1987; Lien, Shantz and Pratt 1987; Elber and Cohen 1996; Rappoport 1991; Schwarz "

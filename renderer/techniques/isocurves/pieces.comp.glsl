@@ -16,8 +16,9 @@ vec4 whole_[16] = vec4[16](FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS);  // 
 vec4 part[16] = vec4[16](FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS, FOUR_ZEROS);  // of the rectangle
 
 vec4 blossom(vec4 a, vec4 b, vec4 c, vec4 d, float r, float s, float t) {
-  const vec4 ab = mix(a, b, r), bc = mix(b, c, r), cd = mix(c, d, r);
-  return mix(mix(ab, bc, s), mix(bc, cd, s), t);
+  precise const vec4 ab = mix(a, b, r), bc = mix(b, c, r), cd = mix(c, d, r);
+  precise const vec4 out_ = mix(mix(ab, bc, s), mix(bc, cd, s), t);
+  return out_;
 }
 
 void restrict_(vec2 u, vec2 v) {
@@ -121,8 +122,10 @@ void walkCurve(vec4 c[4], vec2 u, float v, uint first, uint last, uint steps) {
 
 void curveAt(float t, out vec4 c[4]) {
   const float s = 1.0 - t;
-  for (int i = 0; i < 4; ++i)
-    c[i] = s * s * s * part[i] + 3.0 * s * s * t * part[i + 4] + 3.0 * s * t * t * part[i + 8] + t * t * t * part[i + 12];
+  for (int i = 0; i < 4; ++i) {
+    precise const vec4 at = s * s * s * part[i] + 3.0 * s * s * t * part[i + 4] + 3.0 * s * t * t * part[i + 8] + t * t * t * part[i + 12];
+    c[i] = at;
+  }
 }
 
 uint stepsFor(float most) { return uint(clamp(ceil(3.0 * most / spacing), 1.0, float(kMostIsocurves))); }
