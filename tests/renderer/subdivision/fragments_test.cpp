@@ -100,7 +100,7 @@ void expectTheLimit(const MadeFragments& made, int levels) {
 TEST_F(Fragments, AreTheLimitOfSmoothCages) {
   expectTheLimit(made(scene::doubleTorusCage(), 3), 3);
   expectTheLimit(made(scene::doubleTorusCage(), 2), 2);
-  for (const uint32_t valence : {3U, 4U, 5U, 7U, 12U, 40U}) {
+  for (const uint32_t valence : {3U, 4U, 5U, 7U, 12U, 24U}) {
     SCOPED_TRACE(valence);
     expectTheLimit(made(surfaces::bipyramid(valence), 2), 2);  // triangles: two steps before
   }
@@ -149,31 +149,33 @@ TEST_F(Fragments, OfDifferentLevelsHaveNoCracks) {
   using Bits = std::array<uint32_t, 3>;
   for (const PolygonMesh& cage :
        {scene::doubleTorusCage(), scene::quadCage(scene::CageShape::CreasedBlock), surfaces::bipyramid(7)}) {
-    const FlatLevels flat{.tolerancePx = 0.1};
-    const MadeFragments found = made(cage, 5, &flat);
-    size_t used = 0;
-    for (const uint32_t of : found.byLevel) used += of > 0;
-    EXPECT_GT(used, 1U);
-    const auto bits = [&](uint32_t index) {
-      Bits out{};
-      const glm::vec3 p = found.vertices[index].position + 0.0F;
-      std::memcpy(out.data(), &p, sizeof p);
-      return out;
-    };
-    std::map<std::array<Bits, 2>, int> edges;
-    for (size_t t = 0; t < found.indices.size(); t += 3) {
-      const std::array<Bits, 3> c = {bits(found.indices[t]), bits(found.indices[t + 1]),
-                                     bits(found.indices[t + 2])};
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-      for (size_t k = 0; k < 3; ++k) ++edges[{c[k], c[(k + 1) % 3]}];
+    size_t mixed = 0;
+    for (const double tolerance : {0.002, 0.01, 0.05, 0.25, 1.0}) {
+      const FlatLevels flat{.tolerancePx = tolerance};
+      const MadeFragments found = made(cage, 5, &flat);
+      mixed += std::ranges::count_if(found.byLevel, [](uint32_t of) { return of > 0; }) > 1;
+      const auto bits = [&](uint32_t index) {
+        Bits out{};
+        const glm::vec3 p = found.vertices[index].position + 0.0F;
+        std::memcpy(out.data(), &p, sizeof p);
+        return out;
+      };
+      std::map<std::array<Bits, 2>, int> edges;
+      for (size_t t = 0; t < found.indices.size(); t += 3) {
+        const std::array<Bits, 3> c = {bits(found.indices[t]), bits(found.indices[t + 1]),
+                                       bits(found.indices[t + 2])};
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+        for (size_t k = 0; k < 3; ++k) ++edges[{c[k], c[(k + 1) % 3]}];
+      }
+      EXPECT_GT(edges.size(), 100U);
+      size_t open = 0;
+      for (const auto& [edge, count] : edges) {
+        const auto other = edges.find({edge[1], edge[0]});
+        open += count != 1 || other == edges.end() || other->second != 1;
+      }
+      EXPECT_EQ(open, 0U) << "of " << edges.size();
     }
-    EXPECT_GT(edges.size(), 500U);
-    size_t open = 0;
-    for (const auto& [edge, count] : edges) {
-      const auto other = edges.find({edge[1], edge[0]});
-      open += count != 1 || other == edges.end() || other->second != 1;
-    }
-    EXPECT_EQ(open, 0U) << "of " << edges.size();
+    EXPECT_GT(mixed, 1U);
   }
 }
 
