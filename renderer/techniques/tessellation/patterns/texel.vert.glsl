@@ -13,7 +13,8 @@ flat out ivec4 at;
 void main() {
   const uint texel = place + uint(gl_VertexID);
   const vec2 centre = vec2(texel % uint(kEvaluationTexels), texel / uint(kEvaluationTexels)) + 0.5;
-  gl_Position = vec4(2.0 * centre / vec2(kEvaluationTexels, rows) - 1.0, 0.5, 1.0);
+  const vec2 share = centre / vec2(kEvaluationTexels, rows);
+  gl_Position = vec4(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y, 0.5, 1.0);  // row 0 lies at the top
   gl_PointSize = 1.0;
   patch_ = number;
   at = sample_;
