@@ -152,7 +152,7 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
       return mesh;
     }
     case ControlCage::TwoTorus: {
-      surfaces::PolygonMesh mesh = quadCage(CageShape::DoubleTorus);
+      surfaces::PolygonMesh mesh = closedCage(CageShape::DoubleTorus);
       return settings.figure.scheme == CageScheme::CatmullClark ? mesh
                                                                 : surfaces::triangulated(std::move(mesh));
     }

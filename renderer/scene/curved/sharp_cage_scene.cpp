@@ -18,7 +18,8 @@ struct SharpCageSettings {
         {&S::shape, "shape",
          "Two joined rings of 48 quads; or a block of 6, whose vertices have valence 3: smooth, with sharp "
          "edges "
-         "around its top and its bottom, or with two upright ones as well, whose ends are corners",
+         "around its top and its bottom, or with two upright ones as well, whose ends are corners; or a "
+         "house of a pentagon, quads and triangles",
          "Schwarz 2009, section 6.1.5"},
         {&S::steps,
          "steps",
@@ -27,10 +28,14 @@ struct SharpCageSettings {
          "Steps of subdivision before vertices are moved to the limit, in the mesh"}};
     return kTable;
   }
+  void check() const {
+    if (shape == CageShape::House && steps == 0)
+      throw Error("limit points are those of quads", "steps", "a house needs a step or more");
+  }
 };
 
 Scene buildSharpCage(const SharpCageSettings& settings) {
-  surfaces::PolygonMesh cage = quadCage(settings.shape);
+  surfaces::PolygonMesh cage = closedCage(settings.shape);
   Bounds bounds;
   for (const glm::dvec3& p : cage.points) bounds.extend(p);
   const double scale = 1.0 / (bounds.high.y - bounds.low.y);

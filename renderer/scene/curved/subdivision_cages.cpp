@@ -63,6 +63,21 @@ surfaces::PolygonMesh block() {
   return mesh;
 }
 
+surfaces::PolygonMesh house() {
+  surfaces::PolygonMesh mesh;
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < 5; ++i)
+      mesh.points.emplace_back(0.6 * std::cos(0.4 * M_PI * i), 0.7 * level, -0.6 * std::sin(0.4 * M_PI * i));
+  mesh.points.emplace_back(0.0, 1.2, 0.0);
+  mesh.faces = {{4, 3, 2, 1, 0}};
+  for (uint32_t i = 0; i < 5; ++i) {
+    const uint32_t next = (i + 1) % 5;
+    mesh.faces.push_back({i, next, next + 5, i + 5});
+    mesh.faces.push_back({i + 5, next + 5, 10});
+  }
+  return mesh;
+}
+
 /// Vertices are numbered by their coordinates: bit 1 is up.
 void sharpen(surfaces::PolygonMesh& mesh, bool corners) {
   const auto edge = [&](uint32_t a, uint32_t b) {
@@ -77,8 +92,9 @@ void sharpen(surfaces::PolygonMesh& mesh, bool corners) {
 
 }  // namespace
 
-surfaces::PolygonMesh quadCage(CageShape shape) {
+surfaces::PolygonMesh closedCage(CageShape shape) {
   surfaces::PolygonMesh mesh;
+  if (shape == CageShape::House) return house();
   if (shape == CageShape::DoubleTorus) {
     mesh = doubleTorusCage();
     for (glm::dvec3& p : mesh.points) p = {p.x, -p.z, p.y};

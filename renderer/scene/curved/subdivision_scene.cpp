@@ -34,12 +34,15 @@ struct SubdivisionSettings {
     static const SettingsTable<S> kTable = {
         {&S::shape, "shape",
          "Two joined rings of 48 quads; or a block of 6, smooth, with sharp edges around its top and its "
-         "bottom, or with two upright ones as well; all but pccm and pm_patches keep these edges"},
+         "bottom, or with two upright ones as well; or a house of a pentagon, quads and triangles; all but "
+         "pccm and pm_patches keep these edges"},
         {&S::approximation, "approximation",
          "Bicubic patches over the quads of Catmull-Clark's surface, shaded with their own normals or "
          "with those of tangent patches (Loop and Schaefer 2008); four quartic triangles for each quad that "
          "join smoothly (Myles, Yeo "
-         "and Peters 2008); four bicubic patches that do (Peters 2000; after a step at least); or quadratic "
+         "and Peters 2008); four bicubic patches that do (Peters 2000; after a step at least); fans of "
+         "quartic triangles over faces of three to five sides that do (Myles, Ni and Peters 2008); or "
+         "quadratic "
          "triangles "
          "through points of Loop's (Boubekeur and Schlick 2007)"},
         {&S::steps, "steps", {0, 4}, "steps", "Steps of subdivision before each face becomes a patch"},
@@ -51,6 +54,10 @@ struct SubdivisionSettings {
     return kTable;
   }
   void check() const {
+    if (shape == CageShape::House && steps == 0 && approximation != Approximation::Pm)
+      throw Error("not all faces are quads", "steps", "a house needs a step or more, but for pm_patches");
+    if (shape == CageShape::House && steps < 2 && approximation == Approximation::Pccm)
+      throw Error("quads have two extraordinary vertices", "steps", "pccm needs two steps of a house");
     if (approximation == Approximation::Pccm && steps < 1)
       throw Error("quads have two extraordinary vertices", "steps", "pccm needs a step or more");
     const bool sharp = shape == CageShape::CreasedBlock || shape == CageShape::CorneredBlock;
@@ -73,7 +80,7 @@ surfaces::PatchSet approximated(surfaces::PolygonMesh cage, const SubdivisionSet
 
 /// Stands upright, 1 high, as curved/double_torus.
 Scene buildSubdivision(const SubdivisionSettings& settings) {
-  surfaces::PatchSet set = approximated(quadCage(settings.shape), settings);
+  surfaces::PatchSet set = approximated(closedCage(settings.shape), settings);
   const Mesh shape = patchMesh(set, settings.tessellation);
   Bounds bounds;
   for (const glm::dvec3& p : shape.positions) bounds.extend(p);

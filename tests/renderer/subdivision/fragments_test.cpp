@@ -111,7 +111,7 @@ TEST_F(Fragments, AreTheLimitAtBoundariesAndCreases) {
   for (const scene::CageShape shape :
        {scene::CageShape::Block, scene::CageShape::CreasedBlock, scene::CageShape::CorneredBlock}) {
     SCOPED_TRACE(int(shape));
-    expectTheLimit(made(scene::quadCage(shape), 3), 3);
+    expectTheLimit(made(scene::closedCage(shape), 3), 3);
   }
   for (const uint32_t faces : {2U, 3U, 6U}) {
     SCOPED_TRACE(faces);
@@ -123,7 +123,7 @@ TEST_F(Fragments, AreTheLimitAtBoundariesAndCreases) {
 TEST_F(Fragments, HaveTheNormalsOfTheirSideAtCreases) {
   const int levels = 3, n = 1 << levels;
   for (const scene::CageShape shape : {scene::CageShape::CreasedBlock, scene::CageShape::CorneredBlock}) {
-    const MadeFragments found = made(scene::quadCage(shape), levels);
+    const MadeFragments found = made(scene::closedCage(shape), levels);
     size_t checked = 0;
     for (uint32_t f = 0; f < found.mesh.faces.size(); ++f)
       for (int k = 1; k < n; ++k)
@@ -148,7 +148,7 @@ TEST_F(Fragments, HaveTheNormalsOfTheirSideAtCreases) {
 TEST_F(Fragments, OfDifferentLevelsHaveNoCracks) {
   using Bits = std::array<uint32_t, 3>;
   for (const PolygonMesh& cage :
-       {scene::doubleTorusCage(), scene::quadCage(scene::CageShape::CreasedBlock), surfaces::bipyramid(7)}) {
+       {scene::doubleTorusCage(), scene::closedCage(scene::CageShape::CreasedBlock), surfaces::bipyramid(7)}) {
     size_t mixed = 0;
     for (const double tolerance : {0.002, 0.01, 0.05, 0.25, 1.0}) {
       const FlatLevels flat{.tolerancePx = tolerance};

@@ -270,7 +270,7 @@ TEST(AccPatches, AreExactAtCreasesAndBoundaries) {
 TEST(AccPatches, TangentPatchesAgreeAcrossTheSmoothEdgesOfCreasedMeshes) {
   for (const scene::CageShape shape : {scene::CageShape::CreasedBlock, scene::CageShape::CorneredBlock})
     for (const int steps : {0, 1, 2}) {
-      const PolygonMesh mesh = catmullClark(scene::quadCage(shape), steps);
+      const PolygonMesh mesh = catmullClark(scene::closedCage(shape), steps);
       const MeshTopology topology(mesh);
       const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
       double field = 0.0, curve = 0.0;
