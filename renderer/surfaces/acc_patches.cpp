@@ -24,11 +24,11 @@ TangentNet tangentPatch(const AccMasks& masks, const std::array<uint32_t, 4>& v,
   // On the sides u = 0 and u = 1, across which these tangents point: with the neighbour's they sum to a
   // multiple of the tangent along the side (Loop and Schaefer 2008, section 4).
   const auto correct = [&](size_t column, uint32_t from, uint32_t to, double sign) {
-    if (masks.isOpen(from, to)) return;
+    if (masks.isSharp(from, to)) return;
     const int i = column == 0 ? 0 : 3;
     const glm::dvec3 first = masks.tangent(from, to), middle = 3.0 * (at(i, 2) - at(i, 1)),
                      last = -masks.tangent(to, from);
-    const double c0 = masks.cosine(from), c1 = masks.cosine(to);
+    const double c0 = masks.cosine(from, to), c1 = masks.cosine(to, from);
     net[column][1] += sign / 3.0 * (2.0 * c0 * middle - c1 * first);
     net[column][2] += sign / 3.0 * (c0 * last - 2.0 * c1 * middle);
   };

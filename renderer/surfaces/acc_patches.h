@@ -16,8 +16,10 @@ enum class AccNormals {
 /// One bicubic patch for each quad of a Catmull-Clark control mesh: the geometry patches of Loop and Schaefer
 /// (2008) (Schwarz 2009, section 6.1.5; SC-23). On faces whose vertices are regular they are the surface
 /// itself; elsewhere they interpolate its limit points, and neighbours share their boundaries bit by bit but
-/// not their tangents. Boundaries are the surface's own. Sharp edges are not looked at. Neighbours are found.
-/// Throws std::invalid_argument if a face is no quad.
+/// not their tangents. Boundaries and infinitely sharp edges are the surface's own, and so are the faces
+/// along them whose vertices have as many faces on this side as a regular vertex: two, or one at a corner
+/// (Kovacs et al. 2009). Semi-sharp edges count as smooth. Neighbours are found. Throws std::invalid_argument
+/// if a face is no quad.
 PatchSet accPatches(const PolygonMesh& mesh, AccNormals normals = AccNormals::Geometry);
 
 }  // namespace limen::surfaces

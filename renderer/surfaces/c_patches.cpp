@@ -26,8 +26,8 @@ EdgeRows edgeRows(const AccMasks& masks, uint32_t from, uint32_t to, uint32_t fr
   const dvec3 a = masks.corner(from), d = masks.corner(to), b = a + first / 3.0, c = d - last / 3.0;
   const dvec3 middle = 3.0 * (c - b);
   // With the neighbour's, tangents across sum to a multiple of that along the edge, linear along it.
-  const double c0 = masks.isOpen(from, to) ? 0.0 : masks.cosine(from),
-               c1 = masks.isOpen(from, to) ? 0.0 : masks.cosine(to);
+  const bool sharp = masks.isSharp(from, to);
+  const double c0 = sharp ? 0.0 : masks.cosine(from, to), c1 = sharp ? 0.0 : masks.cosine(to, from);
   const std::array<dvec3, 4> across = {
       masks.tangent(from, fromSide),
       (2.0 * c0 * middle - c1 * first) / 3.0 + 3.0 * (ownFrom - masks.edge(from, to)),

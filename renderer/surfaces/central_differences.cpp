@@ -22,16 +22,9 @@ struct CentralPart {
   std::array<Record, 4> corners;
 };
 
-class CentralRefinement {
+class CentralRefinement : ScreenRefinement {
  public:
-  CentralRefinement(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
-                    dvec3 anchor, RecursionCounts& counts)
-      : set_(set),
-        screen_(set, view),
-        view_(view),
-        settings_(settings),
-        counts_(counts),
-        vertices_(set, view, anchor) {}
+  using ScreenRefinement::ScreenRefinement;
 
   TessellatedSurface run() {
     for (uint32_t i = 0; i < set_.patches.size(); ++i) {
@@ -127,12 +120,6 @@ class CentralRefinement {
     vertices_.addTriangle(part.patch, {v[0], v[2], v[3]});
   }
 
-  const PatchSet& set_;
-  ScreenPatches screen_;
-  const SurfaceView& view_;
-  const RecursionSettings& settings_;
-  RecursionCounts& counts_;
-  SurfaceVertices vertices_;
   std::vector<CentralPart> stack_;
 };
 

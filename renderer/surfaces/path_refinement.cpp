@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/refined_parts.h"
 
 namespace limen::surfaces {
@@ -23,16 +24,9 @@ struct Cell {
   std::array<Samples, 3> samples;
 };
 
-class PathRefinement {
+class PathRefinement : ScreenRefinement {
  public:
-  PathRefinement(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
-                 dvec3 anchor, RecursionCounts& counts)
-      : set_(set),
-        screen_(set, view),
-        view_(view),
-        settings_(settings),
-        counts_(counts),
-        vertices_(set, view, anchor) {}
+  using ScreenRefinement::ScreenRefinement;
 
   TessellatedSurface run() {
     for (uint32_t i = 0; i < set_.patches.size(); ++i) addPatch(i);
@@ -146,12 +140,6 @@ class PathRefinement {
     stack_.push_back(std::move(second));
   }
 
-  const PatchSet& set_;
-  ScreenPatches screen_;
-  const SurfaceView& view_;
-  const RecursionSettings& settings_;
-  RecursionCounts& counts_;
-  SurfaceVertices vertices_;
   std::vector<Cell> stack_;
 };
 

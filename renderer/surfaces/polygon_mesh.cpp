@@ -64,4 +64,12 @@ double MeshTopology::sharpness(const PolygonMesh& mesh, EdgeKey edge) const {
   return at == mesh.sharpness.end() ? 0.0 : at->second;
 }
 
+PolygonMesh triangulated(PolygonMesh mesh) {
+  std::vector<std::vector<uint32_t>> triangles;
+  for (const std::vector<uint32_t>& f : mesh.faces)
+    for (size_t i = 2; i < f.size(); ++i) triangles.push_back({f[0], f[i - 1], f[i]});
+  mesh.faces = std::move(triangles);
+  return mesh;
+}
+
 }  // namespace limen::surfaces

@@ -24,6 +24,9 @@ struct PolygonMesh {
   std::map<EdgeKey, double> sharpness;
 };
 
+/// Every face cut into triangles from its first vertex.
+PolygonMesh triangulated(PolygonMesh mesh);
+
 /// The faces around a vertex, counter-clockwise: face i lies between the edges to edges[i] and edges[i + 1];
 /// of a closed ring the last one lies between the last edge and the first.
 struct VertexRing {

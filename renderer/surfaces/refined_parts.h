@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "renderer/surfaces/blossom.h"
+#include "renderer/surfaces/recursion.h"
 #include "renderer/surfaces/tessellated_surface.h"
 
 namespace limen::surfaces {
@@ -108,6 +109,27 @@ class SurfaceVertices {
   const PatchSet& set_;
   TessellatedSurface out_;
   std::map<std::tuple<uint32_t, double, double>, uint32_t> vertices_;
+};
+
+/// What refinements of patches on the screen work with.
+class ScreenRefinement {
+ public:
+  ScreenRefinement(const PatchSet& set, const SurfaceView& view, const RecursionSettings& settings,
+                   glm::dvec3 anchor, RecursionCounts& counts)
+      : set_(set),
+        screen_(set, view),
+        view_(view),
+        settings_(settings),
+        counts_(counts),
+        vertices_(set, view, anchor) {}
+
+ protected:
+  const PatchSet& set_;
+  ScreenPatches screen_;
+  const SurfaceView& view_;
+  const RecursionSettings& settings_;
+  RecursionCounts& counts_;
+  SurfaceVertices vertices_;
 };
 
 }  // namespace limen::surfaces

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Control meshes of subdivision surfaces, beside the patches that stand in for them (Holländer 2013, chapter
 // 2).
-#include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/curved/figure.h"
 #include "renderer/scene/curved/patch_mesh.h"
 #include "renderer/scene/curved/subdivision_cages.h"
@@ -50,16 +49,8 @@ struct FigureSettings {
   }
 };
 
-surfaces::PolygonMesh ofTriangles(surfaces::PolygonMesh mesh) {
-  std::vector<std::vector<uint32_t>> triangles;
-  for (const std::vector<uint32_t>& f : mesh.faces)
-    for (size_t i = 2; i < f.size(); ++i) triangles.push_back({f[0], f[i - 1], f[i]});
-  mesh.faces = std::move(triangles);
-  return mesh;
-}
-
 surfaces::PatchSet substituteFor(const surfaces::PolygonMesh& cage, Substitute substitute) {
-  const surfaces::PolygonMesh triangles = ofTriangles(cage);
+  const surfaces::PolygonMesh triangles = surfaces::triangulated(cage);
   if (substitute == Substitute::Qas) return surfaces::qasPatches(triangles);
   surfaces::BaseMesh base;
   base.positions = triangles.points;
@@ -161,9 +152,9 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
       return mesh;
     }
     case ControlCage::TwoTorus: {
-      surfaces::PolygonMesh mesh = doubleTorusCage();
-      for (glm::dvec3& p : mesh.points) p = {p.x, -p.z, p.y};
-      return settings.figure.scheme == CageScheme::CatmullClark ? mesh : ofTriangles(std::move(mesh));
+      surfaces::PolygonMesh mesh = closedCage(CageShape::DoubleTorus);
+      return settings.figure.scheme == CageScheme::CatmullClark ? mesh
+                                                                : surfaces::triangulated(std::move(mesh));
     }
     default:
       return pyramids(n);

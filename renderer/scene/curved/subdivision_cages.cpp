@@ -2,6 +2,7 @@
 #include "renderer/scene/curved/subdivision_cages.h"
 
 #include <cmath>
+#include "renderer/scene/curved/double_torus.h"
 
 namespace limen::scene {
 
@@ -49,6 +50,58 @@ surfaces::PolygonMesh openFan(uint32_t faces) {
     mesh.points.emplace_back(std::cos(turn), std::sin(turn), 0.2 * std::sin(5.0 * i));
   }
   for (uint32_t i = 0; i < faces; ++i) mesh.faces.push_back({0, 1 + i, 2 + i});
+  return mesh;
+}
+
+namespace {
+
+surfaces::PolygonMesh block() {
+  surfaces::PolygonMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.points.emplace_back(i & 1 ? 0.6 : -0.6, i & 2 ? 1.0 : 0.0, i & 4 ? 0.45 : -0.45);
+  mesh.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  return mesh;
+}
+
+surfaces::PolygonMesh house() {
+  surfaces::PolygonMesh mesh;
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < 5; ++i)
+      mesh.points.emplace_back(0.6 * std::cos(0.4 * M_PI * i), 0.7 * level, -0.6 * std::sin(0.4 * M_PI * i));
+  mesh.points.emplace_back(0.0, 1.2, 0.0);
+  mesh.faces = {{4, 3, 2, 1, 0}};
+  for (uint32_t i = 0; i < 5; ++i) {
+    const uint32_t next = (i + 1) % 5;
+    mesh.faces.push_back({i, next, next + 5, i + 5});
+    mesh.faces.push_back({i + 5, next + 5, 10});
+  }
+  return mesh;
+}
+
+/// Vertices are numbered by their coordinates: bit 1 is up.
+void sharpen(surfaces::PolygonMesh& mesh, bool corners) {
+  const auto edge = [&](uint32_t a, uint32_t b) {
+    mesh.sharpness[surfaces::edgeKey(a, b)] = surfaces::kInfinitelySharp;
+  };
+  for (const uint32_t level : {0U, 2U}) {
+    edge(level, level + 1), edge(level + 1, level + 5);
+    edge(level + 5, level + 4), edge(level + 4, level);
+  }
+  if (corners) edge(0, 2), edge(5, 7);
+}
+
+}  // namespace
+
+surfaces::PolygonMesh closedCage(CageShape shape) {
+  surfaces::PolygonMesh mesh;
+  if (shape == CageShape::House) return house();
+  if (shape == CageShape::DoubleTorus) {
+    mesh = doubleTorusCage();
+    for (glm::dvec3& p : mesh.points) p = {p.x, -p.z, p.y};
+    return mesh;
+  }
+  mesh = block();
+  if (shape != CageShape::Block) sharpen(mesh, shape == CageShape::CorneredBlock);
   return mesh;
 }
 

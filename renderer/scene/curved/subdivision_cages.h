@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "experiments/base/enum_names.h"
 #include "renderer/surfaces/polygon_mesh.h"
 
 namespace limen::scene {
+
+/// Closed cages, of quads but for the last.
+enum class CageShape {
+  DoubleTorus,    ///< 48 quads
+  Block,          ///< six, whose vertices have valence 3
+  CreasedBlock,   ///< with sharp edges around its top and its bottom
+  CorneredBlock,  ///< with two upright ones as well, whose ends are corners
+  House           ///< a pentagon below, walls of quads, and a roof of triangles
+};
+constexpr EnumNames<CageShape, 5> enumNames(CageShape) {
+  return {{{{CageShape::Block, "block"},
+            {CageShape::CorneredBlock, "cornered_block"},
+            {CageShape::CreasedBlock, "creased_block"},
+            {CageShape::DoubleTorus, "double_torus"},
+            {CageShape::House, "house"}}}};
+}
+/// Upright: y is up.
+surfaces::PolygonMesh closedCage(CageShape shape);
 
 /// Two pyramids, tip up and tip down: two vertices of the valence, numbers 0 and 1, all others of valence 4;
 /// somewhat uneven.

@@ -1,66 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A walk along a curve of constant v on a bicubic patch, a point for each pixel that it passes. The first pass finds the
-// nearest depth of each pixel, the second one what lies there. See isocurves.cpp.
-#include "renderer/techniques/isocurves/isocurves_bindings.h"
-#include "renderer/techniques/tessellation/evaluate.glsl"
-
-layout(local_size_x = kIsocurveGroup) in;
-layout(binding = kIsocurveDepthImage, r32ui) uniform uimage2D depths;
-#ifdef SURFACE_PASS
-layout(binding = kIsocurveIdsImage, r32ui) uniform writeonly uimage2D ids;
-layout(binding = kIsocurveNormalsImage, rgba32f) uniform writeonly image2D normals;
-#endif
-#ifdef COUNTING
-layout(binding = kIsocurveCountsImage, r32ui) uniform uimage2D counts;
-layout(std430, binding = kIsocurveDriftBuffer) buffer Drift { uint mostDrift, mostSteps; };
-#endif
-
-uniform mat4 anchorToClip;
-uniform vec3 eye;       // relative to the anchor
-uniform ivec2 sizePx;
-uniform float nearest;  // along the view
-uniform float spacing;  // px, of points and of curves
-uniform uint restart;   // steps after which the differences are computed anew
-
-TessellatedPatch patch_ = TessellatedPatch(0u, 0u, 0u, 0u, ivec4(-1));
-
-// x and y in pixels from the top left corner times the distance along the view; z: unused; w: that distance.
-vec4 clipPoint(int i) {
-  const vec4 clip = anchorToClip * patchPoints[patch_.firstPoint + uint(i)];
-  return vec4((0.5 * clip.x + 0.5 * clip.w) * float(sizePx.x), (0.5 * clip.w - 0.5 * clip.y) * float(sizePx.y), 0.0, clip.w);
-}
-
-// Points, or curves, along u or v: degree times the largest distance of successive control points (Rockwood 1987).
-uint stepsAlong(vec4 points[16], int stride, int across) {
-  float most = 0.0;
-  for (int row = 0; row < 4; ++row)
-    for (int i = 0; i < 3; ++i) {
-      const vec4 a = points[row * across + i * stride], b = points[row * across + (i + 1) * stride];
-      if (a.w < nearest || b.w < nearest) return uint(kMostIsocurves);
-      most = max(most, distance(a.xy / a.w, b.xy / b.w));
-    }
-  return uint(clamp(ceil(3.0 * most / spacing), 1.0, float(kMostIsocurves)));
-}
-
-void plot(vec4 p, float u, float v) {
-  if (!(p.w >= nearest)) return;
-  const ivec2 pixel = ivec2(floor(p.xy / p.w));
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, sizePx))) return;
-  const uint depth = floatBitsToUint(nearest / p.w);
-#ifdef SURFACE_PASS
-  // Two programs may round differently: within 16 units in the last place it is the same point.
-  if (depth + 16u < imageLoad(depths, pixel).x) return;
-  const TessellatedVertex vertex = surfaceVertex(patch_, vec4(u, v, 1.0 - u, 1.0 - v));
-  const vec3 normal = dot(vertex.normal, vertex.position - eye) > 0.0 ? -vertex.normal : vertex.normal;
-  imageStore(ids, pixel, uvec4(kSurfaceOfPatch | vertex.material));
-  imageStore(normals, pixel, vec4(normal, p.w));
-#else
-  imageAtomicMax(depths, pixel, depth);
-#endif
-#ifdef COUNTING
-  imageAtomicAdd(counts, pixel, 1u);
-#endif
-}
+// A walk along a curve of constant v on a bicubic patch, a point for each pixel that it passes; curves are evenly spaced.
+#include "renderer/techniques/isocurves/isocurve_points.glsl"
 
 #ifdef COUNTING
 // How far a point by differences lies from the curve's, which is evaluated in double precision.
@@ -75,30 +15,6 @@ void measureDrift(vec4 c[4], vec4 found, uint at, uint whole, uint steps) {
 }
 #endif
 
-struct Walk {
-  vec4 p, d1, d2, d3;  // point, and differences to the next ones
-};
-
-Walk walkFrom(vec4 c[4], float t, float h) {
-  const float s = 1.0 - t;
-  const vec4 a = mix(c[0], c[1], t), b = mix(c[1], c[2], t), d = mix(c[2], c[3], t);
-  const vec4 first = 3.0 * (s * s * (c[1] - c[0]) + 2.0 * s * t * (c[2] - c[1]) + t * t * (c[3] - c[2])),
-             second = 6.0 * (s * (c[2] - 2.0 * c[1] + c[0]) + t * (c[3] - 2.0 * c[2] + c[1])),
-             third = 6.0 * (c[3] - 3.0 * c[2] + 3.0 * c[1] - c[0]);
-  Walk w;
-  w.p = mix(mix(a, b, t), mix(b, d, t), t);
-  w.d1 = h * first + 0.5 * h * h * second + h * h * h / 6.0 * third;
-  w.d2 = h * h * second + h * h * h * third;
-  w.d3 = h * h * h * third;
-  return w;
-}
-
-void step_(inout Walk w) {
-  w.p += w.d1;
-  w.d1 += w.d2;
-  w.d2 += w.d3;
-}
-
 void main() {
   patch_ = patches[gl_WorkGroupID.y];
   const uint curve = gl_WorkGroupID.x * uint(kIsocurveGroup) + gl_LocalInvocationIndex;
@@ -108,8 +24,10 @@ void main() {
   if (curve > curves) return;
   const float v = float(curve) / float(curves), s = 1.0 - v;
   vec4 c[4];
-  for (int i = 0; i < 4; ++i)
-    c[i] = s * s * s * points[i] + 3.0 * s * s * v * points[i + 4] + 3.0 * s * v * v * points[i + 8] + v * v * v * points[i + 12];
+  for (int i = 0; i < 4; ++i) {
+    precise const vec4 at = s * s * s * points[i] + 3.0 * s * s * v * points[i + 4] + 3.0 * s * v * v * points[i + 8] + v * v * v * points[i + 12];
+    c[i] = at;
+  }
 #ifdef ADAPTIVE
   // Steps are powers of two of the domain: halved where a point moves farther than the spacing, doubled where it moves
   // less than half of it (Lien, Shantz and Pratt 1987).
@@ -125,9 +43,8 @@ void main() {
     const vec4 halfway = w.p + 0.5 * w.d1 - 0.125 * w.d2 + 0.0625 * w.d3;
     const float there = halfway.w < nearest ? 1e30 : 2.0 * distance(w.p.xy / max(w.p.w, nearest), halfway.xy / halfway.w);
     if (max(moved, there) > spacing && width > 1u) {
-      w.d3 *= 0.125;
-      w.d2 = 0.25 * w.d2 - w.d3;
-      w.d1 = 0.5 * (w.d1 - w.d2);
+      precise const vec4 d3 = 0.125 * w.d3, d2 = 0.25 * w.d2 - d3, d1 = 0.5 * (w.d1 - d2);
+      w = Walk(w.p, d1, d2, d3);
       width >>= 1;
       continue;
     }
@@ -142,9 +59,8 @@ void main() {
     measureDrift(c, w.p, at, whole, whole / width);
 #endif
     if (max(moved, there) < 0.5 * spacing && at % (2u * width) == 0u && at + 2u * width <= whole) {
-      w.d1 = 2.0 * w.d1 + w.d2;
-      w.d2 = 4.0 * (w.d2 + w.d3);
-      w.d3 *= 8.0;
+      precise const vec4 d1 = 2.0 * w.d1 + w.d2, d2 = 4.0 * (w.d2 + w.d3), d3 = 8.0 * w.d3;
+      w = Walk(w.p, d1, d2, d3);
       width <<= 1;
     }
   }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bicubic patches without triangles: curves of constant v so close that each pixel gets a point (SC-34,
 // SC-35). Steps are the same all over a patch (Rockwood 1987) or adapt along each curve (Lien, Shantz and
-// Pratt 1987); Schwarz 2009, section 6.5.3, names both. Points come from forward differences of the
-// homogeneous curve on the screen, restarted at times against drift. Choices of the bench: one invocation a
-// curve, nearest depths by an atomic maximum, and a second walk that writes the surface of the points that
-// won. Curves are evenly spaced in both cases.
+// Pratt 1987), the curves being evenly spaced; or curves adapt, steps being even along each (Elber and Cohen
+// 1996); or a patch is halved until its parts suit even steps and curves (Rappoport 1991). Schwarz 2009,
+// section 6.5.3, names all four. Points come from forward differences of the homogeneous curve on the screen,
+// restarted at times against drift. Choices of the bench: one invocation a curve, or a group for a sixteenth
+// of a patch; nearest depths by an atomic maximum, and a second walk that writes the surface of the points
+// that won; a part's curves are close where the control polygons between them are short, which folds cannot
+// hide from, in place of the roots of their distance.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -14,22 +17,49 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/isocurves/isocurves_bindings.h"
 #include "renderer/techniques/ray_casting/hit_counters.h"
-#include "renderer/techniques/ray_casting/ray_casting_bindings.h"
+#include "renderer/techniques/ray_casting/seen_picture.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
-#include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
 
 namespace limen::techniques {
 namespace {
 
-enum class Stepping { Uniform, Adaptive };
-constexpr EnumNames<Stepping, 2> enumNames(Stepping) {
-  return {{{{Stepping::Uniform, "uniform"}, {Stepping::Adaptive, "adaptive"}}}};
-}
+struct UniformSteps {
+  static constexpr const char *kKind = "uniform", *kSummary = "the same all over a patch";
+};
+struct AdaptiveSteps {
+  static constexpr const char *kKind = "adaptive", *kSummary = "halved and doubled along each curve";
+};
+struct AdaptiveCurves {
+  static constexpr const char *kKind = "adaptive_curves",
+                              *kSummary = "even ones on curves that are inserted until they are close";
+};
+struct HybridParts {
+  static constexpr const char *kKind = "hybrid",
+                              *kSummary = "the same all over a part of a patch, halved until that suits it";
+  double flatnessPx = 2.0, evenness = 1.5;
+  static const SettingsTable<HybridParts>& table() {
+    using S = HybridParts;
+    static const SettingsTable<S> kTable = {
+        {&S::flatnessPx,
+         "flatness_px",
+         {0.01, 64.0},
+         "px",
+         "Distance that control points of a part that is filled may have from even places on their chords",
+         "Schwarz 2009, section 6.5.3 (number: bench)"},
+        {&S::evenness,
+         "evenness",
+         {1.05, 3.0},
+         "",
+         "Longest leg of a control polygon over its mean leg, at most",
+         "Schwarz 2009, section 6.5.3 (number: bench)"}};
+    return kTable;
+  }
+};
 
 struct IsocurveSettings {
-  Stepping stepping = Stepping::Uniform;
+  std::variant<UniformSteps, AdaptiveSteps, AdaptiveCurves, HybridParts> stepping;
   double spacingPx = 0.5;
   int restart = 64;
   bool check = true;
@@ -37,13 +67,13 @@ struct IsocurveSettings {
   static const SettingsTable<IsocurveSettings>& table() {
     using S = IsocurveSettings;
     static const SettingsTable<S> kTable = {
-        {&S::stepping, "stepping", "Steps along a curve", "Schwarz 2009, section 6.5.3"},
+        {&S::stepping, "stepping", "How far apart points and curves are", "Schwarz 2009, section 6.5.3"},
         {&S::spacingPx, "spacing_px", {0.1, 4}, "px", "Distance of curves, and of points on them, at most"},
         {&S::restart,
          "restart",
          {1, 4096},
          "steps",
-         "Steps after which differences are computed anew",
+         "Steps after which differences are computed anew; a part that is filled has no more",
          "Schwarz 2009, section 7.6.2"},
         {&S::check, "check", "Compare all pixels with interval arithmetic when counting"},
         frame::shadingBinding(&S::shading)};
@@ -55,9 +85,6 @@ class Isocurves : public Technique {
  public:
   using Settings = IsocurveSettings;
   explicit Isocurves(const Settings& settings) : settings_(settings) {}
-  ~Isocurves() override {
-    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
-  }
 
   void prepare(frame::Frame& frame) override {
     for (const surfaces::Patch& patch : frame.scene().surfaces.patches)
@@ -69,22 +96,22 @@ class Isocurves : public Technique {
       throw Error("the scene has more than 65,535 patches", "scene", "use fewer patches");
     picture_.emplace(frame, settings_.shading, "isocurves");
     gl::ShaderDefines defines = patches_->defines();
-    if (settings_.stepping == Stepping::Adaptive) defines["ADAPTIVE"] = "1";
-    const std::string path = "renderer/techniques/isocurves/isocurves.comp.glsl";
+    if (std::holds_alternative<AdaptiveSteps>(settings_.stepping)) defines["ADAPTIVE"] = "1";
+    if (std::holds_alternative<AdaptiveCurves>(settings_.stepping)) defines["ADAPTIVE_CURVES"] = "1";
+    hybrid_ = std::get_if<HybridParts>(&settings_.stepping);
+    inParts_ = hybrid_ || std::holds_alternative<AdaptiveCurves>(settings_.stepping);
+    const std::string path = std::string("renderer/techniques/isocurves/") +
+                             (inParts_ ? "pieces.comp.glsl" : "isocurves.comp.glsl");
     gl::ProgramCache& programs = frame.context().programs();
     depthProgram_ = &programs.compute(path, defines);
     gl::ShaderDefines counting = defines, surface = defines;
     counting["COUNTING"] = "1", surface["SURFACE_PASS"] = "1";
     countingProgram_ = &programs.compute(path, counting);
     surfaceProgram_ = &programs.compute(path, surface);
-    const std::string folder = "renderer/techniques/ray_casting/exact/";
-    drawProgram_ = &programs.get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
     depths_.emplace(gl::Format::R32UI, frame.sizePx());
-    ids_.emplace(gl::Format::R32UI, frame.sizePx());
-    normals_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    glCreateVertexArrays(1, &vertexArray_);
     frame.passes().setBytesHeld("isocurves/depths", depths_->bytes());
-    frame.passes().setBytesHeld("isocurves/surface", ids_->bytes() + normals_->bytes() + patches_->bytes());
+    frame.passes().setBytesHeld("isocurves/surface",
+                                picture_->ids().bytes() + picture_->normals().bytes() + patches_->bytes());
   }
 
   void render(frame::Frame& frame) override {
@@ -94,20 +121,13 @@ class Isocurves : public Technique {
     }
     {
       const auto scope = frame.passes().open("isocurves/surface");
-      normals_->clear(glm::vec4(0.0F));
-      ids_->bindImage(kIsocurveIdsImage, gl::Access::Write);
-      normals_->bindImage(kIsocurveNormalsImage, gl::Access::Write);
+      picture_->normals().clear(glm::vec4(0.0F));
+      picture_->ids().bindImage(kIsocurveIdsImage, gl::Access::Write);
+      picture_->normals().bindImage(kIsocurveNormalsImage, gl::Access::Write);
       dispatch(frame, *surfaceProgram_);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
-    picture_->render(frame, [&] {
-      drawProgram_->use();
-      drawProgram_->set("nearest", static_cast<float>(frame::nearPlane(frame)));
-      ids_->bindTexture(kSeenIdsUnit);
-      normals_->bindTexture(kSeenNormalsUnit);
-      glBindVertexArray(vertexArray_);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
-    });
+    picture_->render(frame);
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -116,7 +136,7 @@ class Isocurves : public Technique {
     const gl::Texture counts(gl::Format::R32UI, frame.sizePx());
     counts.clearUint(glm::uvec4(0));
     counts.bindImage(kIsocurveCountsImage, gl::Access::ReadWrite);
-    const gl::Buffer drift(std::vector<uint32_t>{0, 0});
+    const gl::Buffer drift(std::vector<uint32_t>{0, 0, 0});
     drift.bindStorage(kIsocurveDriftBuffer);
     walk(frame, *countingProgram_);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -126,8 +146,10 @@ class Isocurves : public Technique {
     const std::vector<uint32_t> measured = drift.read<uint32_t>();
     std::vector<Counter> out = {{"points_per_px", points / std::max(covered, 1.0)},
                                 {"drift_px", double(std::bit_cast<float>(measured[0]))},
-                                {"steps_most", double(measured[1])}};
-    if (settings_.check) std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
+                                {"steps_most", double(measured[1])},
+                                {"filled_parts", double(measured[2])}};
+    if (settings_.check)
+      std::ranges::copy(hitCounters(frame, picture_->normals().read()), std::back_inserter(out));
     return out;
   }
 
@@ -138,7 +160,8 @@ class Isocurves : public Technique {
          {"drift_px", "Distance of points by differences from the curve in double precision, largest", "px",
           lower},
          {"steps_most", "Steps of the finest curve, or of the finest part of one, over the whole domain",
-          "steps", Direction::Neither}});
+          "steps", Direction::Neither},
+         {"filled_parts", "Parts of patches that were filled each with its own steps", "parts", lower}});
   }
 
  private:
@@ -155,27 +178,32 @@ class Isocurves : public Technique {
     program.set("nearest", static_cast<float>(frame::nearPlane(frame)));
     program.set("spacing", static_cast<float>(settings_.spacingPx));
     program.set("restart", static_cast<uint32_t>(settings_.restart));
+    if (hybrid_) {
+      program.set("flatness", static_cast<float>(hybrid_->flatnessPx));
+      program.set("evenness", static_cast<float>(hybrid_->evenness));
+    }
     patches_->bindStorage();
     depths_->bindImage(kIsocurveDepthImage, gl::Access::ReadWrite);
     program.use();
-    glDispatchCompute(kMostIsocurves / kIsocurveGroup + 1, patches_->count(), 1);
+    glDispatchCompute(inParts_ ? kIsocurveParts : kMostIsocurves / kIsocurveGroup + 1, patches_->count(), 1);
   }
 
   Settings settings_;
   std::optional<PatchBuffers> patches_;
-  std::optional<SurfacePicture> picture_;
-  std::optional<gl::Texture> depths_, ids_, normals_;
-  const gl::Program *depthProgram_ = nullptr, *countingProgram_ = nullptr, *surfaceProgram_ = nullptr,
-                    *drawProgram_ = nullptr;
-  uint32_t vertexArray_ = 0;
+  std::optional<SeenPicture> picture_;
+  std::optional<gl::Texture> depths_;
+  const gl::Program *depthProgram_ = nullptr, *countingProgram_ = nullptr, *surfaceProgram_ = nullptr;
+  const HybridParts* hybrid_ = nullptr;
+  bool inParts_ = false;
 };
 
 const RegisteredTechnique<Isocurves> kIsocurvesRegistered{
     {.name = "isocurves/forward_differences",
-     .version = 1,
-     .summary =
-         "Bicubic patches as dense curves of points by forward differences, with even or adaptive steps",
-     .source = "Rockwood 1987; Lien, Shantz and Pratt 1987; Schwarz 2009, section 6.5.3 (SC-34, SC-35)",
+     .version = 2,
+     .summary = "Bicubic patches as dense curves of points by forward differences, with even or adaptive "
+                "steps and curves",
+     .source = "Rockwood 1987; Lien, Shantz and Pratt 1987; Elber and Cohen 1996; Rappoport 1991; Schwarz "
+               "2009, section 6.5.3 (SC-34, SC-35)",
      .product = ProductKind::Colour,
      .needs = {"curved_surfaces"},
      .counters = Isocurves::quantities()}};

@@ -11,12 +11,13 @@ namespace limen::techniques {
 
 const int kIsocurveGroup = 64;
 const int kMostIsocurves = 4096;  // of a patch, and points on each
+const int kIsocurveParts = 16;    // of a patch, each with a group of its own
 
 const uint kIsocurveDepthImage = 0u;  // reversed depth as bits, 0: nothing
 const uint kIsocurveIdsImage = 1u;
 const uint kIsocurveNormalsImage = 2u;
 const uint kIsocurveCountsImage = 3u;  // points that fell into the pixel
-const uint kIsocurveDriftBuffer = 3u;  // largest drift, px, as bits; most steps of a curve
+const uint kIsocurveDriftBuffer = 3u;  // largest drift, px, as bits; most steps of a curve; pieces filled
 
 #ifdef __cplusplus
 }  // namespace limen::techniques

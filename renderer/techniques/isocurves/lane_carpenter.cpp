@@ -2,17 +2,12 @@
 // Patches by scan lines on the CPU, in double precision, halved until they are flat quads (SC-36): the one of
 // the scan-line family that is robust. Blinn's and Whitted's (in the same paper) find each line's edges and
 // silhouettes by Newton steps and miss some. See scan_lines.h.
-#include <epoxy/gl.h>
-
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/isocurves/scan_lines.h"
 #include "renderer/techniques/ray_casting/hit_counters.h"
-#include "renderer/techniques/ray_casting/ray_casting_bindings.h"
+#include "renderer/techniques/ray_casting/seen_picture.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/patch_buffers.h"
-#include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
-#include "renderer/techniques/tessellation/tessellation_bindings.h"
 
 namespace limen::techniques {
 namespace {
@@ -40,9 +35,6 @@ class LaneCarpenter : public Technique {
  public:
   using Settings = LaneCarpenterSettings;
   explicit LaneCarpenter(const Settings& settings) : settings_(settings) {}
-  ~LaneCarpenter() override {
-    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
-  }
 
   void prepare(frame::Frame& frame) override {
     requireDrawn(frame.scene());
@@ -50,12 +42,7 @@ class LaneCarpenter : public Technique {
       if (!(p.w > 0.0))
         throw Error("the scene has a control point whose weight is not positive", "scene",
                     "scan lines rely on the hulls of control points");
-    const std::string folder = "renderer/techniques/ray_casting/exact/";
-    program_ = &frame.context().programs().get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
     picture_.emplace(frame, settings_.shading, "isocurves");
-    ids_.emplace(gl::Format::R32UI, frame.sizePx());
-    normals_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    glCreateVertexArrays(1, &vertexArray_);
   }
 
   void render(frame::Frame& frame) override {
@@ -63,26 +50,8 @@ class LaneCarpenter : public Technique {
     counts_ = {};
     const ExactView seen =
         scanLineView(scene.surfaces, viewOf(frame), frame.sizePx(), settings_.tolerancePx, counts_);
-    std::vector<uint32_t> ids(seen.pixels.size(), 0);
-    Image normals(frame.sizePx().x, frame.sizePx().y, 4);
-    for (size_t i = 0; i < seen.pixels.size(); ++i) {
-      const ExactPixel& pixel = seen.pixels[i];
-      if (!pixel.hit) continue;
-      ids[i] = kSurfaceOfPatch | scene.parts[scene.surfaces.patches[pixel.at.patch].part].material;
-      for (int c = 0; c < 3; ++c)
-        normals.data[4 * i + static_cast<size_t>(c)] = static_cast<float>(pixel.normal[c]);
-      normals.data[4 * i + 3] = static_cast<float>(pixel.distance);
-    }
-    ids_->writeUint(ids);
-    normals_->write(normals);
-    picture_->render(frame, [&] {
-      program_->use();
-      program_->set("nearest", static_cast<float>(frame::nearPlane(frame)));
-      ids_->bindTexture(kSeenIdsUnit);
-      normals_->bindTexture(kSeenNormalsUnit);
-      glBindVertexArray(vertexArray_);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
-    });
+    picture_->write(scene, seen);
+    picture_->render(frame);
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -91,7 +60,8 @@ class LaneCarpenter : public Technique {
     std::vector<Counter> out = {{"part_splits", double(counts_.splits)},
                                 {"flat_parts", double(counts_.polygons)},
                                 {"active_most", double(counts_.mostActive)}};
-    if (settings_.check) std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
+    if (settings_.check)
+      std::ranges::copy(hitCounters(frame, picture_->normals().read()), std::back_inserter(out));
     return out;
   }
 
@@ -104,16 +74,13 @@ class LaneCarpenter : public Technique {
 
  private:
   Settings settings_;
-  std::optional<SurfacePicture> picture_;
-  std::optional<gl::Texture> ids_, normals_;
-  const gl::Program* program_ = nullptr;
+  std::optional<SeenPicture> picture_;
   ScanLineCounts counts_;
-  uint32_t vertexArray_ = 0;
 };
 
 const RegisteredTechnique<LaneCarpenter> kLaneCarpenterRegistered{
     {.name = "isocurves/lane_carpenter",
-     .version = 1,
+     .version = 2,
      .summary = "Patches by scan lines on the CPU, halved until they are flat",
      .source = "Lane, Carpenter, Whitted and Blinn 1980; Schwarz 2009, section 6.5.3 (SC-36)",
      .product = ProductKind::Colour,

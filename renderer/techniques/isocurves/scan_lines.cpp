@@ -25,6 +25,12 @@ struct ScanPart {
   int m = 1, n = 1, halvings = 0;
   std::vector<dvec4> points;  // (x w d, y w d, -, w d): d the depth
   dvec2 low{0.0}, high{1.0};  // of the domain
+  /// Pixels of the corners (0, 0), (1, 0), (1, 1), (0, 1), if they lie in front of the eye.
+  std::array<dvec2, 4> corners{};
+  /// Sides that count as straight, from one corner to the next. Parts on both sides of one see the same curve
+  /// and find the same; from then on all vertices on it lie on its chord, however either part is halved, so
+  /// that nothing shows between them (Lane et al. 1980; Clark 1979).
+  std::array<bool, 4> straight{};
 };
 
 /// A corner of a flat part: pixels, 1 / depth, parameters.
@@ -100,7 +106,46 @@ class ScanLines {
                               0.5 * size_.y * depth - glm::dot(away, view_.up) * view_.pxAtDistance, 0.0,
                               depth);
     }
+    for (size_t c = 0; c < 4; ++c) out.corners[c] = cornerOf(out, c);
+    for (size_t side = 0; side < 4; ++side) out.straight[side] = isStraight(out, side);
     return out;
+  }
+
+  static const dvec4& pointAt(const ScanPart& part, int i, int j) {
+    return part.points[static_cast<size_t>(i + (part.m + 1) * j)];
+  }
+  static dvec2 cornerOf(const ScanPart& part, size_t corner) {
+    const dvec4& p = pointAt(part, corner == 1 || corner == 2 ? part.m : 0, corner >= 2 ? part.n : 0);
+    return dvec2(p) / p.w;
+  }
+
+  bool isStraight(const ScanPart& part, size_t side) const {
+    const bool alongU = side % 2 == 0;
+    const int degree = alongU ? part.m : part.n, across = side == 1 ? part.m : side == 2 ? part.n : 0;
+    const auto at = [&](int k) -> const dvec4& {
+      return alongU ? pointAt(part, k, across) : pointAt(part, across, k);
+    };
+    for (int k = 0; k <= degree; ++k)
+      if (!(at(k).w > 0.0)) return false;
+    const dvec2 first = dvec2(at(0)) / at(0).w, last = dvec2(at(degree)) / at(degree).w;
+    for (int k = 1; k < degree; ++k)
+      if (glm::length(dvec2(at(k)) / at(k).w - glm::mix(first, last, double(k) / degree)) > tolerance_)
+        return false;
+    return true;
+  }
+
+  /// Corners and sides of both halves.
+  void joinHalves(const ScanPart& part, bool alongU, std::array<ScanPart, 2>& halves) const {
+    // Corners of the first half, that of the second, and the side from the one to the other that is cut.
+    constexpr size_t kCuts[2][2][3] = {{{1, 0, 0}, {2, 3, 2}}, {{2, 1, 1}, {3, 0, 3}}};
+    for (const size_t(&cut)[3] : kCuts[alongU ? 0 : 1]) {
+      const dvec2 middle = part.straight[cut[2]] ? 0.5 * (part.corners[cut[0]] + part.corners[cut[1]])
+                                                 : cornerOf(halves[0], cut[0]);
+      halves[0].corners[cut[0]] = middle, halves[1].corners[cut[1]] = middle;
+      for (ScanPart& half : halves) half.straight[cut[2]] = part.straight[cut[2]] || isStraight(half, cut[2]);
+    }
+    halves[0].straight[alongU ? 1 : 2] = halves[1].straight[alongU ? 3 : 0] =
+        isStraight(halves[0], alongU ? 1 : 2);
   }
 
   /// Weights times depths are positive in front of the eye; the near plane as a share of them is not known,
@@ -109,13 +154,14 @@ class ScanLines {
     return std::ranges::all_of(part.points, [](const dvec4& p) { return p.w > 0.0; });
   }
 
-  /// The first line whose centre the box of the control points reaches; -1: none.
+  /// The first line whose centre the box of the control points and corners reaches; -1: none.
   int firstLine(const ScanPart& part) const {
     if (std::ranges::all_of(part.points, [](const dvec4& p) { return p.w <= 0.0; })) return -1;
     if (!inFront(part)) return 0;
     dvec2 low(1e300), high(-1e300);
     for (const dvec4& p : part.points)
       low = glm::min(low, dvec2(p) / p.w), high = glm::max(high, dvec2(p) / p.w);
+    for (const dvec2& corner : part.corners) low = glm::min(low, corner), high = glm::max(high, corner);
     if (high.x < 0.5 || low.x > size_.x - 0.5) return -1;
     const double first = std::max(std::ceil(low.y - 0.5), 0.0);
     return first + 0.5 > high.y || first > size_.y - 1 ? -1 : static_cast<int>(first);
@@ -176,17 +222,19 @@ class ScanLines {
     }
     const int axis = alongU ? 0 : 1;
     out[0].high[axis] = out[1].low[axis] = 0.5 * (part.low[axis] + part.high[axis]);
+    joinHalves(part, alongU, out);
     return out;
   }
 
   void emit(const ScanPart& part) {
     if (!inFront(part)) return;
     ++counts_.polygons;
-    const auto corner = [&](int i, int j) {
-      const dvec4& p = part.points[static_cast<size_t>(i * part.m + (part.m + 1) * j * part.n)];
-      return ScanCorner{dvec2(p) / p.w, 0.0, {i ? part.high.x : part.low.x, j ? part.high.y : part.low.y}};
+    const auto corner = [&](size_t c) {
+      return ScanCorner{part.corners[c],
+                        0.0,
+                        {c == 1 || c == 2 ? part.high.x : part.low.x, c >= 2 ? part.high.y : part.low.y}};
     };
-    std::array<ScanCorner, 4> corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+    std::array<ScanCorner, 4> corners = {corner(0), corner(1), corner(2), corner(3)};
     for (ScanCorner& c : corners) c.inverse = 1.0 / depthAt(part.patch, c.parameters);
     for (const std::array<size_t, 3>& t : {std::array<size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
       ScanTriangle triangle{part.patch, {corners[t[0]], corners[t[1]], corners[t[2]]}, 0.0};

@@ -16,8 +16,9 @@ struct ScanLineCounts {
 /// A picture of patches line by line from the top (Lane, Carpenter, Whitted and Blinn 1980; Schwarz 2009,
 /// section 6.5.3): a part waits until the line reaches the box of its projected control points, and is then
 /// halved until these lie within `tolerancePx` of the places that a bilinear quad gives them; quads are
-/// rasterised as two triangles by pixel centres. Neighbours that stop at different steps may leave cracks as
-/// wide as the tolerance. Triangles are halved as rectangles with a collapsed side. Weights must be positive;
+/// rasterised as two triangles by pixel centres. A side that is straight to within the tolerance is drawn as
+/// its chord by the parts on both sides, so that neighbours of the same control points leave no cracks,
+/// wherever they stop (Clark 1979). Triangles are halved as rectangles with a collapsed side. Weights must be positive;
 /// what lies nearer than the near plane is left out.
 ExactView scanLineView(const surfaces::PatchSet& set, const surfaces::SurfaceView& view, glm::ivec2 sizePx,
                        double tolerancePx, ScanLineCounts& counts);

@@ -126,7 +126,7 @@ void TableEvaluator::dispatch(const gl::Program& program, const char* count, uin
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
+void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS, bool normals) const {
   const auto cage = static_cast<uint32_t>(surface_.cage.points.size()),
              controls = static_cast<uint32_t>(layout_.controls.size());
   {
@@ -156,7 +156,7 @@ void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
     controls_.bindStorage(kControlsBuffer);
     dispatch(controlsProgram_, "controlCount", controls);
   }
-  if (normalsProgram_) {
+  if (normals && normalsProgram_) {
     const auto scope = frame.passes().open("subdivision/first_normals");
     fans_.bindStorage(kFansBuffer);
     dispatch(*normalsProgram_, "controlCount", controls);

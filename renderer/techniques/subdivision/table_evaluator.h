@@ -37,8 +37,8 @@ class TableEvaluator {
                  glm::dvec3 anchor, const TableEvaluatorSettings& settings);
 
   /// Skins the control mesh, then the first steps: positions and normals of the refined mesh. Passes
-  /// "animate", "first_positions" and "first_normals".
-  void runFirstSteps(frame::Frame& frame, double timeS) const;
+  /// "animate", "first_positions" and "first_normals"; the last only with `normals`.
+  void runFirstSteps(frame::Frame& frame, double timeS, bool normals = true) const;
   /// Main step in compute: all drawn vertices. Pass "main".
   void runMain(frame::Frame& frame) const;
   void stateBytes(frame::Frame& frame) const;

@@ -129,6 +129,9 @@ const uint kPatternOffsetsBuffer = 6u;
 const uint kPatternInstancesBuffer = 7u;
 const uint kPatternCommandsBuffer = 7u;
 const uint kGapStripsBuffer = 5u;
+const uint kEvaluatedPositionsBuffer = 5u;
+const uint kEvaluatedNormalsBuffer = 6u;
+const int kEvaluationTexels = 4096;  // a row of the texture in which the pixel shader evaluates vertices
 const uint kGapNormalsOfOwn = 0x80000000u;  // in a strip's first word
 
 // Picture.

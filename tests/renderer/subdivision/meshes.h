@@ -9,14 +9,6 @@
 
 namespace limen::surfaces {
 
-inline PolygonMesh triangulated(PolygonMesh mesh) {
-  std::vector<std::vector<uint32_t>> triangles;
-  for (const std::vector<uint32_t>& f : mesh.faces)
-    for (size_t i = 2; i < f.size(); ++i) triangles.push_back({f[0], f[i - 1], f[i]});
-  mesh.faces = std::move(triangles);
-  return mesh;
-}
-
 /// Two pyramids, base to base: two vertices of the valence, all others of valence 4; uneven.
 inline PolygonMesh bipyramid(uint32_t valence) {
   PolygonMesh mesh;

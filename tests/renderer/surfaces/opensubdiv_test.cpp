@@ -13,9 +13,12 @@
 
 #include "renderer/scene/curved/double_torus.h"
 #include "renderer/scene/shapes.h"
+#include "renderer/surfaces/acc_patches.h"
+#include "renderer/surfaces/bezier.h"
 #include "renderer/surfaces/catmull_clark.h"
 #include "renderer/surfaces/loop_point.h"
 #include "renderer/surfaces/loop_subdivision.h"
+#include "renderer/surfaces/pccm_patches.h"
 #include "renderer/surfaces/table_layout.h"
 
 namespace limen::surfaces {
@@ -183,6 +186,30 @@ TEST(OpenSubdiv, CatmullClarkHasTheSameSurface) {
   expectCatmullClark(scene::doubleTorusCage());
   // Quads with vertices of valence 3 to 12.
   for (int valence = 3; valence <= 12; ++valence) expectCatmullClark(catmullClark(spindle(valence)));
+}
+
+/// SC-22, SC-23: patches over faces whose vertices are regular, on either side of creases and at boundaries.
+TEST(OpenSubdiv, PatchesHaveTheSameSurfaceWhereFacesAreRegular) {
+  for (const double sharpness : {0.0, kInfinitelySharp}) {
+    PolygonMesh mesh = sheet(false, 0.0);
+    if (sharpness > 0.0)
+      for (uint32_t y = 0; y < 4; ++y) mesh.sharpness[edgeKey(2 + 5 * y, 2 + 5 * (y + 1))] = sharpness;
+    const PatchSet acc = accPatches(mesh), pccm = pccmPatches(mesh);
+    const OpenSubdivSurface theirs(mesh, osd::Sdc::SCHEME_CATMARK);
+    for (uint32_t f = 0; f < mesh.faces.size(); ++f)
+      for (const double u : {0.1, 0.35, 0.8})
+        for (const double v : {0.0, 0.6, 0.95}) {
+          const glm::dvec3 expected = theirs.at(f, u, v).position;
+          // Its weights are single precision in part.
+          EXPECT_LT(glm::length(evaluate(acc, acc.patches[f], rectanglePoint(u, v)).p - expected),
+                    1e-6 * diagonalOf(mesh));
+          if (sharpness > 0.0) continue;
+          const size_t part = (u < 0.5 ? 0 : 1) + (v < 0.5 ? 0 : 2);
+          const DomainPoint at = rectanglePoint(2.0 * u - (u < 0.5 ? 0 : 1), 2.0 * v - (v < 0.5 ? 0 : 1));
+          EXPECT_LT(glm::length(evaluate(pccm, pccm.patches[4 * f + part], at).p - expected),
+                    1e-6 * diagonalOf(mesh));
+        }
+  }
 }
 
 TEST(OpenSubdiv, LoopHasTheSameSurface) {

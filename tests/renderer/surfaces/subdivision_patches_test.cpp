@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/scene/curved/double_torus.h"
+#include "renderer/scene/curved/subdivision_cages.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/surfaces/acc_patches.h"
 #include "renderer/surfaces/bezier.h"
@@ -13,6 +14,7 @@
 #include "renderer/surfaces/catmull_clark_point.h"
 #include "renderer/surfaces/neighbours.h"
 #include "renderer/surfaces/normal.h"
+#include "renderer/surfaces/pm_patches.h"
 #include "tests/renderer/surfaces/angle.h"
 
 namespace limen::surfaces {
@@ -245,6 +247,128 @@ TEST(AccPatches, HaveTheSurfacesBoundary) {
       EXPECT_LT(glm::length(evaluate(set, set.patches[f], rectanglePoint(u, 0.0)).p -
                             catmullClarkPoint(mesh, f, u, 0.0).position),
                 1e-9);
+}
+
+/// SC-23: along creases and boundaries, at whose vertices two faces meet on this side, or one at a corner,
+/// the patches and their normal field are the surface.
+TEST(AccPatches, AreExactAtCreasesAndBoundaries) {
+  const PolygonMesh mesh = sheet(kInfinitelySharp);
+  const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f)
+    for (const double u : {0.02, 0.4, 0.97})
+      for (const double v : {0.05, 0.5, 0.9}) {
+        const LimitPoint exact = catmullClarkPoint(mesh, f, u, v);
+        const DomainPoint at = rectanglePoint(u, v);
+        // A few dozen roundings of numbers up to 5.
+        EXPECT_LT(glm::length(evaluate(set, set.patches[f], at).p - exact.position), 1e-13) << f;
+        EXPECT_LT(angleDeg(normalAt(set, set.patches[f], at).direction, exact.normal), 1e-6) << f;
+      }
+}
+
+/// Extraordinary vertices on creases, of which one side may be regular and the other not; corners. Sharp
+/// edges are the surface's curves; across the others the normal field does not jump, and the geometry does.
+TEST(AccPatches, TangentPatchesAgreeAcrossTheSmoothEdgesOfCreasedMeshes) {
+  for (const scene::CageShape shape : {scene::CageShape::CreasedBlock, scene::CageShape::CorneredBlock})
+    for (const int steps : {0, 1, 2}) {
+      const PolygonMesh mesh = catmullClark(scene::closedCage(shape), steps);
+      const MeshTopology topology(mesh);
+      const PatchSet set = accPatches(mesh, AccNormals::TangentPatches);
+      double field = 0.0, curve = 0.0;
+      size_t smooth = 0, sharp = 0;
+      for (uint32_t f = 0; f < mesh.faces.size(); ++f)
+        for (int side = 0; side < 4; ++side) {
+          const uint32_t a = mesh.faces[f][size_t(side)], b = mesh.faces[f][size_t(side + 1) % 4];
+          const Neighbour& beyond = set.neighbours[f][size_t(side)];
+          ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+          const bool isSharp = topology.sharpness(mesh, edgeKey(a, b)) >= kInfinitelySharp;
+          ++(isSharp ? sharp : smooth);
+          for (int q = 1; q < 10; ++q) {
+            const DomainPoint at = sidePoint(Domain::Rectangle, side, q, 10),
+                              there = sidePoint(Domain::Rectangle, beyond.side, 10 - q, 10);
+            if (isSharp)
+              curve = std::max(curve, glm::length(evaluate(set, set.patches[f], at).p -
+                                                  catmullClarkPoint(mesh, f, at.u, at.v).position));
+            else
+              field = std::max(field,
+                               angleDeg(normalAt(set, set.patches[f], at).direction,
+                                        normalAt(set, set.patches[size_t(beyond.patch)], there).direction));
+          }
+        }
+      EXPECT_GT(smooth, 0U);
+      EXPECT_GT(sharp, 0U);
+      EXPECT_LT(field, 1e-5) << int(shape) << ' ' << steps;
+      EXPECT_LT(curve, 1e-9) << int(shape) << ' ' << steps;
+    }
+}
+
+/// A house with a pentagon for its floor, walls of quads and a roof of triangles; uneven.
+PolygonMesh house() {
+  scene::Random random(3);
+  PolygonMesh mesh;
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < 5; ++i)
+      mesh.points.emplace_back(std::cos(0.4 * M_PI * i) + random.uniform(-0.1, 0.1),
+                               std::sin(0.4 * M_PI * i) + random.uniform(-0.1, 0.1),
+                               level + random.uniform(-0.1, 0.1));
+  mesh.points.emplace_back(0.05, 0.1, 1.7);
+  mesh.faces = {{4, 3, 2, 1, 0}};
+  for (uint32_t i = 0; i < 5; ++i) {
+    const uint32_t j = (i + 1) % 5;
+    mesh.faces.push_back({i, j, j + 5, i + 5});
+    mesh.faces.push_back({i + 5, j + 5, 10});
+  }
+  return mesh;
+}
+
+/// SC-24: tangent planes agree along all sides of fans over triangles, quads and pentagons, and between them.
+TEST(PmPatches, AreSmooth) {
+  for (const PolygonMesh& mesh : {house(), scene::doubleTorusCage(), catmullClark(house())}) {
+    PatchSet set = pmPatches(mesh);
+    size_t sides = 0;
+    for (const std::vector<uint32_t>& face : mesh.faces) sides += face.size();
+    ASSERT_EQ(set.patches.size(), sides);
+    const SideCounts counts = findNeighbours(set);
+    EXPECT_EQ(counts.open + counts.crowded + counts.collapsed, 0U);
+    double angle = 0.0;
+    for (size_t p = 0; p < set.patches.size(); ++p)
+      for (int side = 0; side < 3; ++side) {
+        const Neighbour& beyond = set.neighbours[p][size_t(side)];
+        ASSERT_TRUE(beyond.patch >= 0 && beyond.reversed);
+        for (int q = 0; q <= 10; ++q)
+          angle = std::max(
+              angle,
+              angleDeg(
+                  geometricNormal(set, set.patches[p], sidePoint(Domain::Triangle, side, q, 10)).direction,
+                  geometricNormal(set, set.patches[size_t(beyond.patch)],
+                                  sidePoint(Domain::Triangle, beyond.side, 10 - q, 10))
+                      .direction));
+      }
+    EXPECT_LT(angle, 1e-5);
+  }
+}
+
+/// Over quads the vertices have the surface's points and normals.
+TEST(PmPatches, OfQuadsInterpolateTheLimit) {
+  const PolygonMesh mesh = catmullClark(house());
+  const PatchSet set = pmPatches(mesh);
+  const LimitPoints limit = catmullClarkLimit(mesh);
+  for (size_t p = 0; p < set.patches.size(); ++p) {
+    const DomainPoint at = trianglePoint(1.0, 0.0);
+    EXPECT_LT(glm::length(evaluate(set, set.patches[p], at).p - limit.points[mesh.faces[p / 4][p % 4]]),
+              1e-13);
+    EXPECT_LT(angleDeg(geometricNormal(set, set.patches[p], at).direction, limit.normals[p / 4][p % 4]),
+              1e-5);
+  }
+}
+
+TEST(PmPatches, RefuseOpenMeshesAndHexagons) {
+  EXPECT_THROW(pmPatches(sheet(0.0)), std::invalid_argument);
+  PolygonMesh prism;
+  for (int i = 0; i < 12; ++i)
+    prism.points.emplace_back(std::cos(M_PI / 3.0 * i), std::sin(M_PI / 3.0 * i), i / 6);
+  prism.faces = {{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}};
+  for (uint32_t i = 0; i < 6; ++i) prism.faces.push_back({i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6});
+  EXPECT_THROW(pmPatches(prism), std::invalid_argument);
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ constexpr glm::ivec2 kIsocurvesSize{96, 72};
 // if any part of them is covered, not their middle alone.
 TEST_F(Isocurves, LeaveNoHoleAtHalfAPixel) {
   for (const char* name : {"curved/teapot", "curved/sheet"})
-    for (const char* stepping : {"uniform", "adaptive"}) {
+    for (const char* stepping : {"uniform", "adaptive", "adaptive_curves", "hybrid"}) {
+      // Twenty patches curve by curve take a software renderer half a minute.
+      if (std::string(name) == "curved/sheet" && std::string(stepping) == "adaptive_curves") continue;
       const Given few = {{"columns", int64_t{5}}, {"rows", int64_t{4}}};
       const scene::Scene scene = makeScene(name, std::string(name) == "curved/sheet" ? few : Given{});
       const Rendered made = render(scene, "isocurves/forward_differences",
@@ -29,6 +31,29 @@ TEST_F(Isocurves, AdaptiveStepsTakeFewerPoints) {
   const Rendered adaptive = render(scene, "isocurves/forward_differences",
                                    {{"stepping", std::string("adaptive")}}, kIsocurvesSize, true);
   EXPECT_LT(adaptive.counter("points_per_px"), 0.9 * uniform.counter("points_per_px"));
+}
+
+// Of the teapot's patches, curved unevenly, parts need fewer points than the worst place asks of a whole
+// patch.
+TEST_F(Isocurves, PartsTakeFewerPoints) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  const Rendered uniform = render(scene, "isocurves/forward_differences", {}, kIsocurvesSize, true);
+  const Rendered hybrid = render(scene, "isocurves/forward_differences",
+                                 {{"stepping", std::string("hybrid")}}, kIsocurvesSize, true);
+  EXPECT_LT(hybrid.counter("points_per_px"), uniform.counter("points_per_px"));
+  // 32 patches in 16 parts each, some of them outside or divided.
+  EXPECT_GT(hybrid.counter("filled_parts"), 100);
+}
+
+// Differences over 64 steps of single precision: a hundredth of a pixel, whichever rectangle they start from.
+TEST_F(Isocurves, DoNotDriftInParts) {
+  const scene::Scene scene = makeScene("curved/teapot");
+  for (const char* stepping : {"adaptive_curves", "hybrid"})
+    EXPECT_LT(render(scene, "isocurves/forward_differences",
+                     {{"stepping", std::string(stepping)}, {"check", false}}, kIsocurvesSize, true)
+                  .counter("drift_px"),
+              0.01)
+        << stepping;
 }
 
 // Four pixels apart, curves leave most pixels between them empty.

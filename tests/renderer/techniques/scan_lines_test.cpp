@@ -35,5 +35,20 @@ TEST_F(ScanLines, TakeFewerPartsWhereMoreIsTolerated) {
   }
 }
 
+/// Parts that are halved differently meet along chords: no pixel inside shows what lies behind, however much
+/// is tolerated. A hole is a pixel that all rays around its centre hit; a wrong place may also be a
+/// silhouette's that moved by the tolerance, of 1,000 px at most.
+TEST_F(ScanLines, LeaveNoGapsBetweenParts) {
+  for (const char* name : {"curved/teapot", "curved/nurbs_solids"}) {
+    const scene::Scene scene = makeScene(name);
+    for (const double tolerance : {0.125, 0.25, 0.5}) {
+      const Rendered made =
+          render(scene, "isocurves/lane_carpenter", {{"tolerance_px", tolerance}}, {160, 120}, true);
+      EXPECT_EQ(made.counter("hole_px"), 0) << name << ' ' << tolerance;
+      EXPECT_LE(made.counter("wrong_place_px"), 2 * tolerance * 1000) << name << ' ' << tolerance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limen::techniques

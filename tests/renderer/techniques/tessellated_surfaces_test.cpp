@@ -254,6 +254,9 @@ TEST_F(TessellatedSurfaces, SettingsThatContradictEachOtherAreRefused) {
   refused("tessellation/patterns", text({{"patterns", "integer"}, {"draw", "multi_draw"}}));
   refused("tessellation/patterns", {{"draw", std::string("multi_draw")}, {"coarse_first", true}});
   refused("tessellation/patterns", {{"reuse", std::string("soup")}, {"coarse_first", true}});
+  refused("tessellation/patterns", text({{"evaluation", "pixel"}, {"reuse", "soup"}}));
+  refused("tessellation/patterns", text({{"evaluation", "pixel"}, {"draw", "multi_draw"}}));
+  refused("tessellation/patterns", {{"evaluation", std::string("pixel")}, {"coarse_first", true}});
   // Known with the scene alone.
   EXPECT_THROW(made(makeScene("curved/double_torus"), text({{"spacing", "moreton"}})), Error);
 }

@@ -3,15 +3,10 @@
 // Bézier clipping (Nishita et al. 1990), subdivision by convex hulls, or interval arithmetic, which is proven
 // to miss no root (SC-28). Schwarz 2009, sections 6.4.1 and 6.5.1, names the families. Weights of rational
 // patches must be positive.
-#include <epoxy/gl.h>
-
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/ray_casting/hit_counters.h"
-#include "renderer/techniques/ray_casting/ray_casting_bindings.h"
+#include "renderer/techniques/ray_casting/seen_picture.h"
 #include "renderer/techniques/technique.h"
-#include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/surface_view.h"
-#include "renderer/techniques/tessellation/tessellation_bindings.h"
 #include "renderer/techniques/tessellation/trim_settings.h"
 
 namespace limen::techniques {
@@ -43,9 +38,6 @@ class ExactRays : public Technique {
  public:
   using Settings = ExactRaysSettings;
   explicit ExactRays(const Settings& settings) : settings_(settings) {}
-  ~ExactRays() override {
-    if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
-  }
 
   void prepare(frame::Frame& frame) override {
     for (const glm::dvec4& p : frame.scene().surfaces.points)
@@ -54,12 +46,7 @@ class ExactRays : public Technique {
                     "exact ray casting relies on the hulls of control points");
     set_ = surfaces::movedTo(frame.scene().surfaces, frame.timeS());
     makeTracer();
-    const std::string folder = "renderer/techniques/ray_casting/exact/";
-    program_ = &frame.context().programs().get({folder + "seen.vert.glsl", folder + "seen.frag.glsl"});
     picture_.emplace(frame, settings_.shading, "ray_casting");
-    ids_.emplace(gl::Format::R32UI, frame.sizePx());
-    normals_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    glCreateVertexArrays(1, &vertexArray_);
   }
 
   void render(frame::Frame& frame) override {
@@ -69,27 +56,8 @@ class ExactRays : public Technique {
       makeTracer();
     }
     exact_ = exactView(set_, *tracer_, viewOf(frame), frame.sizePx(), settings_.tolerancePx);
-    std::vector<uint32_t> ids;
-    Image normals(frame.sizePx().x, frame.sizePx().y, 4);
-    for (size_t i = 0; i < exact_.pixels.size(); ++i) {
-      const ExactPixel& pixel = exact_.pixels[i];
-      ids.push_back(0);
-      if (!pixel.hit) continue;
-      ids.back() = kSurfaceOfPatch | scene.parts[scene.surfaces.patches[pixel.at.patch].part].material;
-      for (int c = 0; c < 3; ++c)
-        normals.data[4 * i + static_cast<size_t>(c)] = static_cast<float>(pixel.normal[c]);
-      normals.data[4 * i + 3] = static_cast<float>(pixel.distance);
-    }
-    ids_->writeUint(ids);
-    normals_->write(normals);
-    picture_->render(frame, [&] {
-      program_->use();
-      program_->set("nearest", static_cast<float>(frame::nearPlane(frame)));
-      ids_->bindTexture(kSeenIdsUnit);
-      normals_->bindTexture(kSeenNormalsUnit);
-      glBindVertexArray(vertexArray_);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
-    });
+    picture_->write(scene, exact_);
+    picture_->render(frame);
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -104,7 +72,7 @@ class ExactRays : public Technique {
         {"false_roots", double(exact_.counts.falseReports)},
         {"unproven_roots", double(exact_.counts.unproven)}};
     if (settings_.check) {
-      std::ranges::copy(hitCounters(frame, normals_->read()), std::back_inserter(out));
+      std::ranges::copy(hitCounters(frame, picture_->normals().read()), std::back_inserter(out));
     } else {
       out.push_back({"surface_px", hits});
     }
@@ -131,11 +99,8 @@ class ExactRays : public Technique {
   Settings settings_;
   surfaces::PatchSet set_;  // at the frame's time
   std::optional<surfaces::PatchTracer> tracer_;
-  std::optional<SurfacePicture> picture_;
-  std::optional<gl::Texture> ids_, normals_;
-  const gl::Program* program_ = nullptr;
+  std::optional<SeenPicture> picture_;
   ExactView exact_;
-  uint32_t vertexArray_ = 0;
 };
 
 const RegisteredTechnique<ExactRays> kExactRaysRegistered{

@@ -67,14 +67,6 @@ struct LimitMesh {
   std::vector<uint32_t> indices;
 };
 
-surfaces::PolygonMesh inTriangles(surfaces::PolygonMesh mesh) {
-  std::vector<std::vector<uint32_t>> out;
-  for (const std::vector<uint32_t>& f : mesh.faces)
-    for (size_t k = 1; k + 1 < f.size(); ++k) out.push_back({f[0], f[k], f[k + 1]});
-  mesh.faces = std::move(out);
-  return mesh;
-}
-
 /// Corners of fine faces in the parameters of the cage's, by the order in which steps number faces.
 template <size_t kCorners>
 using FaceCorners = std::vector<std::pair<uint32_t, std::array<glm::dvec2, kCorners>>>;
@@ -188,7 +180,7 @@ class SampledSubdivision : public Technique {
   void prepare(frame::Frame& frame) override {
     const surfaces::SubdivisionSurface& surface = frame.scene().subdivisions.at(0);
     cage_ = surface.cage;
-    if (settings_.scheme == LimitScheme::Loop) cage_ = inTriangles(std::move(cage_));
+    if (settings_.scheme == LimitScheme::Loop) cage_ = surfaces::triangulated(std::move(cage_));
     mesh_ = made();
     const glm::dvec3 anchor = frame.gpuScene().anchor();
     const uint32_t material = frame.scene().parts[surface.part].material;

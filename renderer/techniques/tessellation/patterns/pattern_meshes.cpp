@@ -28,7 +28,7 @@ std::optional<PatternMeshes::Mesh> PatternMeshes::meshOf(surfaces::Domain domain
   samples_.write(vertexCount_ * 16, static_cast<int64_t>(samples.size()) * 16, samples.data());
   indices_.write(indexCount_ * 4, static_cast<int64_t>(indices.size()) * 4, indices.data());
   const Mesh mesh{static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(indexCount_),
-                  static_cast<uint32_t>(vertexCount_)};
+                  static_cast<uint32_t>(vertexCount_), static_cast<uint32_t>(plan.vertices)};
   vertexCount_ += plan.vertices;
   indexCount_ += plan.indices;
   meshes_.emplace(std::pair{domain, factors}, mesh);

@@ -14,7 +14,7 @@ namespace limen::techniques {
 class PatternMeshes {
  public:
   struct Mesh {
-    uint32_t indices = 0, firstIndex = 0, firstVertex = 0;
+    uint32_t indices = 0, firstIndex = 0, firstVertex = 0, vertices = 0;
   };
 
   /// Buffers for so many vertices, and six times as many indices.

@@ -14,6 +14,8 @@
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/tessellation/depth_passes.h"
 #include "renderer/techniques/tessellation/patterns/pattern_batches.h"
+#include "renderer/techniques/tessellation/patterns/pattern_settings.h"
+#include "renderer/techniques/tessellation/patterns/pixel_evaluation.h"
 #include "renderer/techniques/tessellation/surface_picture.h"
 #include "renderer/techniques/tessellation/vertex_feedback.h"
 
@@ -27,85 +29,6 @@ surfaces::Factors factorsOf(uint32_t packed, surfaces::Domain domain) {
     out[side] = static_cast<int>(packed >> 8 * side & 255U);
   return out;
 }
-
-/// Who issues what.
-enum class PatternDraw { Immediate, Instanced, MultiDraw };
-constexpr EnumNames<PatternDraw, 3> enumNames(PatternDraw) {
-  return {{{{PatternDraw::Immediate, "immediate"},
-            {PatternDraw::Instanced, "instanced"},
-            {PatternDraw::MultiDraw, "multi_draw"}}}};
-}
-
-/// What passes after the first draw (SC-75).
-enum class PatternReuse { Evaluate, Soup };
-constexpr EnumNames<PatternReuse, 2> enumNames(PatternReuse) {
-  return {{{{PatternReuse::Evaluate, "evaluate"}, {PatternReuse::Soup, "soup"}}}};
-}
-
-/// Which patterns there are.
-enum class PatternKind { Integer, Dyadic, Adapted, AdaptedInteger };
-constexpr EnumNames<PatternKind, 4> enumNames(PatternKind) {
-  return {{{{PatternKind::Adapted, "adapted"},
-            {PatternKind::AdaptedInteger, "adapted_integer"},
-            {PatternKind::Dyadic, "dyadic"},
-            {PatternKind::Integer, "integer"}}}};
-}
-
-struct PatternSettings {
-  FactorSettings tessellation;
-  PatternKind patterns = PatternKind::Dyadic;
-  PatternDraw draw = PatternDraw::Instanced;
-  int64_t capacity = 1 << 20;
-  bool coarseFirst = false;
-  int passes = 1;
-  PatternReuse reuse = PatternReuse::Evaluate;
-  frame::ShadedSetting shading;
-  static const SettingsTable<PatternSettings>& table() {
-    using S = PatternSettings;
-    static const SettingsTable<S> kTable = {
-        included(&S::tessellation),
-        {&S::patterns, "patterns",
-         "One for each tuple of factors, of whole numbers or powers of two; or uniform ones of the largest "
-         "factor, with "
-         "samples on sides moved to the side's own",
-         "Schwarz 2009, sections 7.5.1 and 7.5.4"},
-        {&S::draw, "draw", "A call for each patch, for each pattern, or one for all",
-         "Schwarz 2009, section 7.5.3"},
-        {&S::capacity,
-         "capacity",
-         {4, 1 << 26},
-         "vertices",
-         "Vertices of all patterns that the buffers hold; indices: six times as many"},
-        {&S::coarseFirst, "coarse_first",
-         "Patches with one segment a side are drawn together, as a mesh whose other patches vanish",
-         "Dyken, Reimers and Seland 2008; Schwarz 2009, section 7.5.3"},
-        {&S::passes,
-         "passes",
-         {1, 8},
-         "passes",
-         "Passes over the same triangles in a frame. All but the last make depths alone",
-         "Schwarz 2009, section 7.6.5"},
-        {&S::reuse, "reuse",
-         "Evaluate the patterns in each pass, or store their triangles in the first by transform feedback",
-         "Lorenz and Döllner 2008; Schwarz 2009, section 7.6.5"},
-        frame::shadingBinding(&S::shading)};
-    return kTable;
-  }
-  bool adapted() const { return patterns == PatternKind::Adapted || patterns == PatternKind::AdaptedInteger; }
-  bool dyadic() const { return patterns == PatternKind::Adapted || patterns == PatternKind::Dyadic; }
-  int most() const { return tessellation.mostSegments(); }
-  void check() const {
-    if (draw == PatternDraw::MultiDraw && coarseFirst)
-      throw Error("a single draw has no part of its own for coarse patches", "coarse_first",
-                  "use draw: instanced or immediate");
-    if (reuse == PatternReuse::Soup && coarseFirst)
-      throw Error("triangles are stored of one program alone", "coarse_first",
-                  "leave it off, or use reuse: evaluate");
-    if (draw == PatternDraw::MultiDraw && !dyadic())
-      throw Error("a single draw needs patterns that are known before", "draw",
-                  "use patterns: dyadic or adapted, or draw: instanced");
-  }
-};
 
 class RefinementPatterns : public Technique {
  public:
@@ -135,6 +58,11 @@ class RefinementPatterns : public Technique {
     if (settings_.coarseFirst) prepareCoarse(frame, defines);
     if (settings_.passes > 1) otherPasses_.emplace(frame, "tessellation");
     if (settings_.reuse == PatternReuse::Soup) prepareSoup(frame, defines);
+    if (settings_.evaluation == PatternEvaluation::Pixel) {
+      pixels_.emplace(frame, 2 * trianglesOfFirstView(frame) + kEvaluationTexels, defines);
+      places_.emplace(int64_t{patches_->count()} * 4, nullptr);
+      frame.passes().setBytesHeld("tessellation/vertices", pixels_->bytes() + places_->bytes());
+    }
     makeVertexArray(batches_ ? batches_->instances() : *instances_);
     frame.passes().setBytesHeld("tessellation/factors", patches_->bytes() + factors_->bytes());
     frame.passes().setBytesHeld("tessellation/batches", batches_ ? batches_->bytes() : instances_->bytes());
@@ -152,8 +80,12 @@ class RefinementPatterns : public Technique {
         buildBatches();
       }
     }
+    if (pixels_) evaluatePixels(frame);
     const auto pass = [&](int number) {
-      if (!soup_) {
+      if (pixels_) {
+        pixels_->bind();
+        draw(frame, pixels_->drawProgram());
+      } else if (!soup_) {
         draw(frame, *program_);
       } else if (number == 0) {
         draw(frame, *captureProgram_, &*soup_);
@@ -246,14 +178,22 @@ class RefinementPatterns : public Technique {
       if (settings_.coarseFirst && most == 1) continue;
       byPattern[{domains_[i], own}].push_back(i);
     }
-    commands_.clear();
-    leftOut_ = 0;
-    std::vector<uint32_t> instances;
-    for (const auto& [key, patches] : byPattern) {
+    commands_.clear(), points_.clear();
+    leftOut_ = 0, evaluated_ = 0;
+    std::vector<uint32_t> instances, places;
+    for (auto& [key, patches] : byPattern) {
       const std::optional<PatternMeshes::Mesh> mesh = meshes_->meshOf(key.first, key.second);
       if (!mesh) {
         leftOut_ += patches.size();
         continue;
+      }
+      if (pixels_) {
+        const auto room = static_cast<size_t>((pixels_->capacity() - evaluated_) / mesh->vertices);
+        if (patches.size() > room) leftOut_ += patches.size() - room, patches.resize(room);
+        points_.push_back({mesh->firstVertex, mesh->vertices, static_cast<uint32_t>(patches.size()),
+                           static_cast<uint32_t>(instances.size())});
+        for (size_t i = 0; i < patches.size(); ++i, evaluated_ += mesh->vertices)
+          places.push_back(static_cast<uint32_t>(evaluated_) - mesh->firstVertex);  // may wrap around
       }
       PatternCommand command{mesh->indices, 1, mesh->firstIndex, mesh->firstVertex,
                              static_cast<uint32_t>(instances.size())};
@@ -267,6 +207,20 @@ class RefinementPatterns : public Technique {
     }
     if (!instances.empty())
       instances_->write(0, static_cast<int64_t>(instances.size()) * 4, instances.data());
+    if (!places.empty()) places_->write(0, static_cast<int64_t>(places.size()) * 4, places.data());
+  }
+
+  /// Once for all passes of the frame.
+  void evaluatePixels(frame::Frame& frame) const {
+    patches_->bindStorage();
+    factors_->factors().bindStorage(kFactorsBuffer);
+    glBindVertexArray(vertexArray_);
+    pixels_->run(frame, evaluated_, [&] {
+      for (const PointsCommand& of : points_)
+        glDrawArraysInstancedBaseInstance(GL_POINTS, static_cast<GLint>(of.firstVertex),
+                                          static_cast<GLsizei>(of.vertices),
+                                          static_cast<GLsizei>(of.instances), of.firstInstance);
+    });
   }
 
   /// Patches of each domain with the pattern of one segment a side; they do not change.
@@ -293,8 +247,8 @@ class RefinementPatterns : public Technique {
     coarseInstances_.emplace(numbers);
   }
 
-  /// Room for twice the triangles of the first view, for which it waits.
-  void prepareSoup(frame::Frame& frame, gl::ShaderDefines defines) {
+  /// Waits for the GPU.
+  int64_t trianglesOfFirstView(frame::Frame& frame) {
     factors_->run(frame);
     int64_t triangles = 0;
     const std::vector<PatchFactors> factors = factors_->factors().read<PatchFactors>(0, patches_->count());
@@ -305,7 +259,12 @@ class RefinementPatterns : public Technique {
       triangles +=
           settings_.adapted() ? 2 * int64_t{most} * most : surfaces::patternOf(domains_[i], own).triangles;
     }
-    soupCapacity_ = 2 * std::max<int64_t>(triangles, 1);
+    return std::max<int64_t>(triangles, 1);
+  }
+
+  /// Room for twice the triangles of the first view.
+  void prepareSoup(frame::Frame& frame, gl::ShaderDefines defines) {
+    soupCapacity_ = 2 * trianglesOfFirstView(frame);
     soup_.emplace(3 * soupCapacity_);
     defines["CAPTURE"] = "1";
     captureProgram_ =
@@ -374,7 +333,19 @@ class RefinementPatterns : public Technique {
     glVertexArrayVertexBuffer(vertexArray_, 0, meshes_->samples().id(), 0, sizeof(glm::ivec4));
     glVertexArrayVertexBuffer(vertexArray_, 1, instances.id(), 0, sizeof(uint32_t));
     glVertexArrayElementBuffer(vertexArray_, meshes_->indices().id());
+    if (!places_) return;
+    constexpr GLuint kPlace = 2;
+    glVertexArrayAttribIFormat(vertexArray_, kPlace, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(vertexArray_, kPlace, kPlace);
+    glEnableVertexArrayAttrib(vertexArray_, kPlace);
+    glVertexArrayBindingDivisor(vertexArray_, kPlace, 1);
+    glVertexArrayVertexBuffer(vertexArray_, kPlace, places_->id(), 0, sizeof(uint32_t));
   }
+
+  /// Vertices of a pattern for some patches.
+  struct PointsCommand {
+    uint32_t firstVertex = 0, vertices = 0, instances = 0, firstInstance = 0;
+  };
 
   Settings settings_;
   std::optional<PatchBuffers> patches_;
@@ -392,6 +363,10 @@ class RefinementPatterns : public Technique {
   int64_t soupCapacity_ = 0;  // triangles
   std::optional<gl::Buffer> coarseInstances_;
   std::vector<PatternCommand> coarseCommands_;
+  std::optional<PixelEvaluation> pixels_;
+  std::optional<gl::Buffer> places_;  // of each instance's first texel, less its pattern's first vertex
+  std::vector<PointsCommand> points_;
+  int64_t evaluated_ = 0;  // vertices
   size_t leftOut_ = 0;
   uint32_t vertexArray_ = 0;
 };
