@@ -61,6 +61,17 @@ static_assert(sizeof(SubdivisionPatch) == 96 && offsetof(SubdivisionPatch, corne
               offsetof(SubdivisionPatch, writes) == 80);
 #endif
 
+// A patch as the main step in compute reads it, whose tables have rows in the order of drawn vertices: those
+// inside the patch, from a multiple of 4 on those of its sides, then its corners.
+struct MeshPatch {  // std430
+  uint firstPoint, points;
+  uint firstWeight;  // a multiple of 4
+  uint unused;
+};
+#ifdef __cplusplus
+static_assert(sizeof(MeshPatch) == 16);
+#endif
+
 // First steps.
 const uint kCageRestBuffer = 0u;
 const uint kCageJointsBuffer = 1u;
@@ -76,7 +87,9 @@ const uint kSubdivisionPatchesBuffer = 0u;
 const uint kSubdivisionPointsBuffer = 1u;
 const uint kSubdivisionTablesBuffer = 2u;
 const uint kSubdivisionPlacesBuffer = 3u;  // rows' places (x in the lower 16 bits), then rows of places
-const uint kFineVerticesBuffer = 4u;       // TessellatedVertex
+const uint kSubdivisionSourcesBuffer =
+    3u;  // of a fine edge's or a corner's position and normal: see surfaces::TablePatch
+const uint kFineVerticesBuffer = 4u;  // TessellatedVertex
 const uint kFineIndicesBuffer = 5u;
 
 // Levels of edges.

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 
 #include "renderer/techniques/subdivision/table_records.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
@@ -50,6 +51,7 @@ TableEvaluator::TableEvaluator(gl::Context& context, const surfaces::Subdivision
       vertexCount_(counted(layout_.verticesAt(settings.level - layout_.steps),
                            int64_t{sizeof(TessellatedVertex)}, "vertices")),
       triangleCount_(counted(layout_.trianglesAt(settings.level - layout_.steps), 12, "triangles")),
+      material_(material),
       rest_(cageRecords(surface, anchor)),
       joints_(int64_t(std::max<size_t>(surface.joints.size(), 1)) * int64_t{sizeof(glm::mat4)}, nullptr),
       positions_(int64_t(surface.cage.points.size()) * 16, nullptr),
@@ -109,7 +111,6 @@ void TableEvaluator::bindTables(const gl::Program& program) const {
 void TableEvaluator::allocateMesh(gl::Context& context) {
   vertices_.emplace(int64_t{vertexCount_} * int64_t{sizeof(TessellatedVertex)}, nullptr);
   indices_.emplace((int64_t{triangleCount_} * 12 + 15) / 16 * 16, nullptr);
-  main_ = &context.programs().compute(kFolder + "fine_vertices.comp.glsl", defines());
   const gl::Program& program = context.programs().compute(kFolder + "fine_indices.comp.glsl", defines());
   bindTables(program);
   indices_->bindStorage(kFineIndicesBuffer);
@@ -117,6 +118,18 @@ void TableEvaluator::allocateMesh(gl::Context& context) {
   program.set("triangleCount", triangleCount_);
   dispatchGroups((triangleCount_ + uint32_t(kSubdivisionGroup) - 1) / uint32_t(kSubdivisionGroup));
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+
+  const MeshRecords records = meshRecords(layout_);
+  meshPatches_.emplace(records.patches);
+  meshWeights_.emplace(records.weights);
+  meshSources_.emplace(records.sources);
+  gl::ShaderDefines given = defines();
+  given["SLOTS"] = std::to_string(layout_.mostSlots());
+  main_ = &context.programs().compute(kFolder + "fine_vertices.comp.glsl", given);
+  std::array<GLint, 3> size{};
+  glGetProgramiv(main_->id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+  mainGroup_ = {size[0], size[1]};
+  meshRows_ = {records.innerRows, records.firstBorderRow, records.rows, records.tangentStride};
 }
 
 void TableEvaluator::dispatch(const gl::Program& program, const char* count, uint32_t of) const {
@@ -126,23 +139,27 @@ void TableEvaluator::dispatch(const gl::Program& program, const char* count, uin
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void TableEvaluator::bindPose(double timeS) const {
+  std::vector<glm::mat4> joints;
+  glm::dmat4 toAnchor(1.0), fromAnchor(1.0);
+  toAnchor[3] = glm::dvec4(-anchor_, 1.0), fromAnchor[3] = glm::dvec4(anchor_, 1.0);
+  for (const surfaces::Joint& joint : surface_.joints)
+    joints.emplace_back(toAnchor * joint.at(timeS) * fromAnchor);
+  if (!joints.empty()) joints_.write(0, int64_t(joints.size() * sizeof(glm::mat4)), joints.data());
+  rest_.bindStorage(kCageRestBuffer);
+  joints_.bindStorage(kCageJointsBuffer);
+}
+
 void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
   const auto cage = static_cast<uint32_t>(surface_.cage.points.size()),
              controls = static_cast<uint32_t>(layout_.controls.size());
-  {
-    const auto scope = frame.passes().open("subdivision/animate");
-    std::vector<glm::mat4> joints;
-    glm::dmat4 toAnchor(1.0), fromAnchor(1.0);
-    toAnchor[3] = glm::dvec4(-anchor_, 1.0), fromAnchor[3] = glm::dvec4(anchor_, 1.0);
-    for (const surfaces::Joint& joint : surface_.joints)
-      joints.emplace_back(toAnchor * joint.at(timeS) * fromAnchor);
-    if (!joints.empty()) joints_.write(0, int64_t(joints.size() * sizeof(glm::mat4)), joints.data());
-    rest_.bindStorage(kCageRestBuffer);
-    joints_.bindStorage(kCageJointsBuffer);
-    positions_.bindStorage(kCagePositionsBuffer);
-    dispatch(animate_, "vertexCount", cage);
-  }
   if (cageNormalsProgram_) {
+    {
+      const auto scope = frame.passes().open("subdivision/animate");
+      bindPose(timeS);
+      positions_.bindStorage(kCagePositionsBuffer);
+      dispatch(animate_, "vertexCount", cage);
+    }
     const auto scope = frame.passes().open("subdivision/cage_normals");
     cageEntries_->bindStorage(kControlEntriesBuffer);
     cageFans_->bindStorage(kFansBuffer);
@@ -151,6 +168,7 @@ void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
   }
   {
     const auto scope = frame.passes().open("subdivision/first_positions");
+    if (!cageNormalsProgram_) bindPose(timeS);
     entries_.bindStorage(kControlEntriesBuffer);
     terms_.bindStorage(kStencilTermsBuffer);
     controls_.bindStorage(kControlsBuffer);
@@ -165,14 +183,34 @@ void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
 
 void TableEvaluator::runMain(frame::Frame& frame) const {
   const auto scope = frame.passes().open("subdivision/main");
-  bindTables(*main_);
+  meshPatches_->bindStorage(kSubdivisionPatchesBuffer);
+  points_.bindStorage(kSubdivisionPointsBuffer);
+  meshWeights_->bindStorage(kSubdivisionTablesBuffer);
+  meshSources_->bindStorage(kSubdivisionSourcesBuffer);
+  controls_.bindStorage(kControlsBuffer);
   vertices_->bindStorage(kFineVerticesBuffer);
-  const int level = settings_.level - layout_.steps;
-  main_->set("rowsOfLevel", surfaces::placesAt(layout_.corners(), level));
-  main_->set("segments", segments());
-  const auto patches = static_cast<uint32_t>(layout_.patches.size());
+  const auto groupsFor = [](uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); };
+  const uint32_t invocations = mainGroup_.x * mainGroup_.y,
+                 corners = static_cast<uint32_t>(layout_.controls.size()),
+                 patches = static_cast<uint32_t>(layout_.patches.size()),
+                 cornerGroups = groupsFor(corners, invocations),
+                 edgeGroups = segments() > 1
+                                  ? groupsFor(uint64_t{layout_.fineEdges} << layout_.tableLevel, invocations)
+                                  : 0,
+                 innerGroups = segments() > 1 ? groupsFor(patches, mainGroup_.y) : 0;
+  main_->use();
+  main_->set("innerRows", meshRows_.inner);
+  main_->set("firstBorderRow", meshRows_.firstBorder);
+  main_->set("rows", meshRows_.all);
+  main_->set("tangentStride", meshRows_.tangentStride);
+  main_->set("level", layout_.tableLevel);
+  main_->set("material", material_);
+  main_->set("cornerGroups", cornerGroups);
+  main_->set("edgeGroups", edgeGroups);
+  main_->set("cornerCount", corners);
+  main_->set("edgeCount", layout_.fineEdges);
   main_->set("patchCount", patches);
-  dispatchGroups(patches);
+  dispatchGroups(cornerGroups + edgeGroups + innerGroups);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -181,12 +219,15 @@ int64_t TableEvaluator::bytes() const {
 }
 
 void TableEvaluator::stateBytes(frame::Frame& frame) const {
-  frame.passes().setBytesHeld("subdivision/animate", rest_.bytes() + joints_.bytes() + positions_.bytes());
-  frame.passes().setBytesHeld("subdivision/first_positions",
-                              entries_.bytes() + terms_.bytes() + controls_.bytes());
+  frame.passes().setBytesHeld("subdivision/first_positions", rest_.bytes() + joints_.bytes() +
+                                                                 positions_.bytes() + entries_.bytes() +
+                                                                 terms_.bytes() + controls_.bytes());
   frame.passes().setBytesHeld("subdivision/first_normals", fans_.bytes());
-  frame.passes().setBytesHeld("subdivision/main",
-                              bytes() + (vertices_ ? vertices_->bytes() + indices_->bytes() : 0));
+  frame.passes().setBytesHeld(
+      "subdivision/main",
+      bytes() + (vertices_ ? vertices_->bytes() + indices_->bytes() + meshPatches_->bytes() +
+                                 meshWeights_->bytes() + meshSources_->bytes()
+                           : 0));
 }
 
 }  // namespace limen::techniques

@@ -36,8 +36,9 @@ class TableEvaluator {
   TableEvaluator(gl::Context& context, const surfaces::SubdivisionSurface& surface, uint32_t material,
                  glm::dvec3 anchor, const TableEvaluatorSettings& settings);
 
-  /// Skins the control mesh, then the first steps: positions and normals of the refined mesh. Passes
-  /// "animate", "first_positions" and "first_normals".
+  /// First steps: positions and normals of the refined mesh, from the skinned control mesh. Passes
+  /// "first_positions" and "first_normals"; where normals start from the control mesh, "animate",
+  /// "cage_normals" and "first_positions".
   void runFirstSteps(frame::Frame& frame, double timeS) const;
   /// Main step in compute: all drawn vertices. Pass "main".
   void runMain(frame::Frame& frame) const;
@@ -59,18 +60,23 @@ class TableEvaluator {
 
  private:
   void dispatch(const gl::Program& program, const char* count, uint32_t of) const;
+  void bindPose(double timeS) const;
 
   TableEvaluatorSettings settings_;
   surfaces::SubdivisionSurface surface_;
   glm::dvec3 anchor_;
   surfaces::TableLayout layout_;
-  uint32_t vertexCount_, triangleCount_;
+  uint32_t vertexCount_, triangleCount_, material_;
   gl::Buffer rest_, joints_, positions_, entries_, terms_, fans_, controls_;
   std::optional<gl::Buffer> cageNormals_, cageEntries_, cageFans_;
   gl::Buffer patches_, points_, tables_, places_;
-  std::optional<gl::Buffer> vertices_, indices_;
+  std::optional<gl::Buffer> vertices_, indices_, meshPatches_, meshWeights_, meshSources_;
   const gl::Program &animate_, &controlsProgram_;
   const gl::Program *normalsProgram_ = nullptr, *cageNormalsProgram_ = nullptr, *main_ = nullptr;
+  struct {
+    uint32_t inner = 0, firstBorder = 0, all = 0, tangentStride = 0;
+  } meshRows_;                  ///< see MeshRecords
+  glm::uvec2 mainGroup_{1, 1};  ///< invocations a patch, patches
 };
 
 }  // namespace limen::techniques

@@ -91,6 +91,69 @@ std::vector<float> tableWeights(const surfaces::TableLayout& layout) {
   return out;
 }
 
+namespace {
+
+/// Rows of tables in the order of MeshPatch; kNoRow where rows are filled up.
+constexpr uint32_t kNoRow = 0xffffffffU;
+std::vector<uint32_t> meshRows(const surfaces::TableLayout& layout, MeshRecords& out) {
+  const int n = 1 << layout.tableLevel;
+  std::map<surfaces::Place, uint32_t> rowOf;
+  for (uint32_t row = 0; row < layout.places.size(); ++row) rowOf[layout.places[row]] = row;
+  std::vector<uint32_t> rows;
+  const auto fill = [&] { rows.resize((rows.size() + 3) / 4 * 4, kNoRow); };
+  const bool triangle = layout.corners() == 3;
+  for (int y = 1; y < n; ++y)
+    for (int x = 1; x < (triangle ? n - y : n); ++x) rows.push_back(rowOf.at({x, y}));
+  out.innerRows = static_cast<uint32_t>(rows.size());
+  fill();
+  out.firstBorderRow = static_cast<uint32_t>(rows.size());
+  std::vector<surfaces::Place> ends = {{0, 0}, {n, 0}, {0, n}};
+  if (!triangle) ends = {{0, 0}, {n, 0}, {n, n}, {0, n}};
+  for (size_t s = 0; s < ends.size(); ++s) {
+    const surfaces::Place &from = ends[s], &to = ends[(s + 1) % ends.size()];
+    for (int i = 1; i < n; ++i)
+      rows.push_back(rowOf.at({from[0] + (to[0] - from[0]) / n * i, from[1] + (to[1] - from[1]) / n * i}));
+  }
+  for (const surfaces::Place& end : ends) rows.push_back(rowOf.at(end));
+  fill();
+  out.rows = static_cast<uint32_t>(rows.size());
+  return rows;
+}
+
+}  // namespace
+
+MeshRecords meshRecords(const surfaces::TableLayout& layout) {
+  MeshRecords out;
+  const std::vector<uint32_t> rows = meshRows(layout, out);
+  std::vector<uint32_t> firstWeights;
+  const auto add = [&](const std::vector<double>& weights) {
+    for (size_t first = 0; first < weights.size(); first += layout.rows())
+      for (const uint32_t row : rows)
+        out.weights.push_back(row == kNoRow ? 0.0F : static_cast<float>(weights[first + row]));
+  };
+  for (const surfaces::BasisTable& table : layout.tables) {
+    firstWeights.push_back(static_cast<uint32_t>(out.weights.size()));
+    add(table.weights);
+  }
+  out.tangentStride = static_cast<uint32_t>(out.weights.size());
+  for (size_t t = 0; t < 2; ++t)
+    for (const surfaces::BasisTable& table : layout.tables) add(table.tangents[t]);
+  out.sources.resize(layout.fineEdges + layout.controls.size());
+  uint32_t points = 0;
+  for (uint32_t p = 0; p < layout.patches.size(); ++p) {
+    const surfaces::TablePatch& patch = layout.patches[p];
+    const auto count = static_cast<uint32_t>(patch.controls.size());
+    out.patches.push_back({points, count, firstWeights[patch.table], 0});
+    points += count;
+    for (uint32_t s = 0; s < layout.corners(); ++s) {
+      if (patch.writesEdge[s]) out.sources[patch.edges[s]] = {patch.edgeSources[s], 8 * p + 2 * s};
+      if (patch.writesCorner[s])
+        out.sources[layout.fineEdges + patch.controls[s]] = {patch.cornerSources[s], 4 * p + s};
+    }
+  }
+  return out;
+}
+
 std::vector<uint32_t> placeRecords(const surfaces::TableLayout& layout) {
   std::vector<uint32_t> out;
   const size_t side = (size_t{1} << layout.tableLevel) + 1;

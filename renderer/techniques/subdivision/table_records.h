@@ -27,6 +27,16 @@ struct PatchRecords {
 PatchRecords patchRecords(const surfaces::TableLayout& layout, uint32_t material);
 /// Tables in succession; those of tangents follow all of positions, then come those of the other tangents.
 std::vector<float> tableWeights(const surfaces::TableLayout& layout);
+
+/// What the main step in compute reads: see MeshPatch. Sources of fine edges, then of controls.
+struct MeshRecords {
+  std::vector<MeshPatch> patches;
+  std::vector<float> weights;
+  std::vector<glm::uvec2> sources;
+  uint32_t innerRows = 0, firstBorderRow = 0, rows = 0;
+  uint32_t tangentStride = 0;  ///< in weights
+};
+MeshRecords meshRecords(const surfaces::TableLayout& layout);
 std::vector<uint32_t> placeRecords(const surfaces::TableLayout& layout);
 
 }  // namespace limen::techniques
