@@ -6,8 +6,24 @@
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 #include "renderer/techniques/subdivision/subdivision_bindings.h"
 
+#ifndef LANES
 #define LANES 32
+#endif
+#ifndef PATCHES
 #define PATCHES 1
+#endif
+#ifndef STAGED
+#define STAGED 1
+#endif
+#ifndef BATCH
+#define BATCH 1
+#endif
+#ifndef PART
+#define PART 0
+#endif
+#ifndef BORDER_LAST
+#define BORDER_LAST 0
+#endif
 layout(local_size_x = LANES, local_size_y = PATCHES) in;
 layout(std430, binding = kSubdivisionPatchesBuffer) readonly buffer Patches { uvec4 patches[]; };  // MeshPatch
 layout(std430, binding = kSubdivisionPointsBuffer) readonly buffer Points { uint points[]; };
@@ -111,8 +127,30 @@ void writeInner(uint number) {
     vec3 b0 = vec3(0.0), b1 = vec3(0.0), b2 = vec3(0.0), b3 = vec3(0.0);
 #endif
     uint at = head.z / 4u + four;
+#if PART == 3
+#define WEIGHT(at) vec4(0.25)
+#else
+#define WEIGHT(at) weightsOfFour[at]
+#endif
+#if BATCH > 1
+    uint s = 0u;
+    for (; s + uint(BATCH) <= head.y; s += uint(BATCH), at += uint(BATCH) * stride) {
+      vec4 w[BATCH];
+      for (uint i = 0u; i < uint(BATCH); ++i) w[i] = WEIGHT(at + i * stride);
+      for (uint i = 0u; i < uint(BATCH); ++i) {
+        const vec3 p = near[own][2u * (s + i)].xyz, n = near[own][2u * (s + i) + 1u].xyz;
+        p0 = fma(vec3(w[i].x), p, p0);
+        p1 = fma(vec3(w[i].y), p, p1);
+        p2 = fma(vec3(w[i].z), p, p2);
+        p3 = fma(vec3(w[i].w), p, p3);
+        n0 += w[i].x * n, n1 += w[i].y * n, n2 += w[i].z * n, n3 += w[i].w * n;
+      }
+    }
+    for (; s < head.y; ++s, at += stride) {
+#else
     for (uint s = 0u; s < head.y; ++s, at += stride) {
-      const vec4 w = weightsOfFour[at];
+#endif
+      const vec4 w = WEIGHT(at);
       const vec3 p = near[own][2u * s].xyz;
       p0 = fma(vec3(w.x), p, p0);
       p1 = fma(vec3(w.y), p, p1);
@@ -130,6 +168,10 @@ void writeInner(uint number) {
 #ifdef GEOMETRY_NORMALS
     n0 = cross(n0, b0), n1 = cross(n1, b1), n2 = cross(n2, b2), n3 = cross(n3, b3);
 #endif
+#if PART == 4
+    if (p0.x + p1.x + p2.x + p3.x + n0.x + n1.x + n2.x + n3.x != 1e30) continue;
+#endif
+#if STAGED
     const uint k = 8u * lane;
     made[own][placeOf(k)] = uvec4(floatBitsToUint(p0), material);
     made[own][placeOf(k + 1u)] = uvec4(floatBitsToUint(unitNormal(n0)), kRungField);
@@ -143,11 +185,37 @@ void writeInner(uint number) {
     const uint vertices = min(4u * uint(LANES), innerRows - 4u * first);
     for (uint i = lane; i < 2u * vertices; i += uint(LANES)) fineVertices[target + 8u * first + i] = made[own][placeOf(i)];
     barrier();
+#else
+    const uint to = target + 8u * four;
+    fineVertices[to] = uvec4(floatBitsToUint(p0), material);
+    fineVertices[to + 1u] = uvec4(floatBitsToUint(unitNormal(n0)), kRungField);
+    if (4u * four + 1u < innerRows) {
+      fineVertices[to + 2u] = uvec4(floatBitsToUint(p1), material);
+      fineVertices[to + 3u] = uvec4(floatBitsToUint(unitNormal(n1)), kRungField);
+    }
+    if (4u * four + 2u < innerRows) {
+      fineVertices[to + 4u] = uvec4(floatBitsToUint(p2), material);
+      fineVertices[to + 5u] = uvec4(floatBitsToUint(unitNormal(n2)), kRungField);
+    }
+    if (4u * four + 3u < innerRows) {
+      fineVertices[to + 6u] = uvec4(floatBitsToUint(p3), material);
+      fineVertices[to + 7u] = uvec4(floatBitsToUint(unitNormal(n3)), kRungField);
+    }
+#endif
   }
 }
 
 void main() {
-  const uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+#if BORDER_LAST
+  const uint inners = (patchCount + uint(PATCHES) - 1u) / uint(PATCHES);
+  group = group < inners ? group + cornerGroups + edgeGroups : group - inners;
+#endif
+#if PART == 1
+  if (group >= cornerGroups + edgeGroups) return;
+#elif PART == 2
+  if (group < cornerGroups + edgeGroups) return;
+#endif
   if (group < cornerGroups) {
     const uint corner = group * uint(LANES * PATCHES) + gl_LocalInvocationIndex;
     if (corner >= cornerCount) return;

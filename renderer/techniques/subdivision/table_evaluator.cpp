@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <sstream>
 
 #include "renderer/techniques/subdivision/table_records.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
@@ -32,6 +34,14 @@ uint32_t counted(int64_t count, int64_t bytesEach, const char* what) {
     throw Error(std::to_string(count) + " " + what + " do not fit into a buffer", "level",
                 "use a lower level");
   return static_cast<uint32_t>(count);
+}
+
+/// Of 1,024 numbers that a compute shader's uniforms may have anywhere, half.
+constexpr size_t kMostUniformJoints = 32;
+
+gl::ShaderDefines skinningDefines(const surfaces::SubdivisionSurface& surface) {
+  return {{"JOINTS", std::to_string(surface.joints.size())},
+          {"MOST_UNIFORM_JOINTS", std::to_string(kMostUniformJoints)}};
 }
 
 /// Groups of the usual size, in rows where there are many.
@@ -63,11 +73,11 @@ TableEvaluator::TableEvaluator(gl::Context& context, const surfaces::Subdivision
       points_(0, nullptr),
       tables_(tableWeights(layout_)),
       places_(placeRecords(layout_)),
-      animate_(context.programs().compute(kFolder + "animate.comp.glsl")),
+      animate_(context.programs().compute(kFolder + "animate.comp.glsl", skinningDefines(surface))),
       controlsProgram_(context.programs().compute(kFolder + "controls.comp.glsl",
                                                   settings.normals == NormalStart::Cage
                                                       ? gl::ShaderDefines{{"NORMALS_FROM_CAGE", "1"}}
-                                                      : gl::ShaderDefines{})) {
+                                                      : skinningDefines(surface))) {
   const EntryRecords records = entryRecords(layout_);
   entries_ = gl::Buffer(records.entries);
   terms_ = gl::Buffer(records.terms);
@@ -124,6 +134,11 @@ void TableEvaluator::allocateMesh(gl::Context& context) {
   meshWeights_.emplace(records.weights);
   meshSources_.emplace(records.sources);
   gl::ShaderDefines given = defines();
+  if (const char* more = std::getenv("LIMEN_MAIN_DEFINES")) {
+    std::stringstream list(more);
+    for (std::string one; std::getline(list, one, ',');)
+      given[one.substr(0, one.find('='))] = one.substr(one.find('=') + 1);
+  }
   given["SLOTS"] = std::to_string(layout_.mostSlots());
   main_ = &context.programs().compute(kFolder + "fine_vertices.comp.glsl", given);
   std::array<GLint, 3> size{};
@@ -139,15 +154,21 @@ void TableEvaluator::dispatch(const gl::Program& program, const char* count, uin
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void TableEvaluator::bindPose(double timeS) const {
+void TableEvaluator::bindPose(const gl::Program& program, double timeS) const {
   std::vector<glm::mat4> joints;
   glm::dmat4 toAnchor(1.0), fromAnchor(1.0);
   toAnchor[3] = glm::dvec4(-anchor_, 1.0), fromAnchor[3] = glm::dvec4(anchor_, 1.0);
   for (const surfaces::Joint& joint : surface_.joints)
     joints.emplace_back(toAnchor * joint.at(timeS) * fromAnchor);
-  if (!joints.empty()) joints_.write(0, int64_t(joints.size() * sizeof(glm::mat4)), joints.data());
+  if (joints.size() > kMostUniformJoints) {
+    joints_.write(0, int64_t(joints.size() * sizeof(glm::mat4)), joints.data());
+    joints_.bindStorage(kCageJointsBuffer);
+  } else {
+    program.use();
+    for (size_t j = 0; j < joints.size(); ++j)
+      program.set(("joints[" + std::to_string(j) + "]").c_str(), joints[j]);
+  }
   rest_.bindStorage(kCageRestBuffer);
-  joints_.bindStorage(kCageJointsBuffer);
 }
 
 void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
@@ -156,7 +177,7 @@ void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
   if (cageNormalsProgram_) {
     {
       const auto scope = frame.passes().open("subdivision/animate");
-      bindPose(timeS);
+      bindPose(animate_, timeS);
       positions_.bindStorage(kCagePositionsBuffer);
       dispatch(animate_, "vertexCount", cage);
     }
@@ -168,7 +189,7 @@ void TableEvaluator::runFirstSteps(frame::Frame& frame, double timeS) const {
   }
   {
     const auto scope = frame.passes().open("subdivision/first_positions");
-    if (!cageNormalsProgram_) bindPose(timeS);
+    if (!cageNormalsProgram_) bindPose(controlsProgram_, timeS);
     entries_.bindStorage(kControlEntriesBuffer);
     terms_.bindStorage(kStencilTermsBuffer);
     controls_.bindStorage(kControlsBuffer);

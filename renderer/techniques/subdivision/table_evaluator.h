@@ -60,7 +60,7 @@ class TableEvaluator {
 
  private:
   void dispatch(const gl::Program& program, const char* count, uint32_t of) const;
-  void bindPose(double timeS) const;
+  void bindPose(const gl::Program& program, double timeS) const;
 
   TableEvaluatorSettings settings_;
   surfaces::SubdivisionSurface surface_;
