@@ -16,11 +16,21 @@ uniform float sunRadius;  // angular radius of the light seen from the scene, ra
 float sunShare(ivec2 pixel, SeenPoint seen);
 #endif
 
+#ifdef FILTERED_PATTERN
+vec3 patternSideA = vec3(0.0), patternSideB = vec3(0.0);  // of the part of the surface over which checks are averaged
+#endif
+
 vec3 patterned(SurfaceMaterial material, vec3 position) {
 #ifdef PATTERN
   if (material.pattern == kPatternNone) return material.albedo;
   const vec3 at = (position - material.patternOrigin) * material.patternFrequency;
-  const float s = material.pattern == kPatternChecker ? checker(at) : fractalNoise(at, material.patternOctaves);
+#ifdef FILTERED_PATTERN
+  const float checks =
+      checkerWithin(at, patternSideA * material.patternFrequency, patternSideB * material.patternFrequency);
+#else
+  const float checks = checker(at);
+#endif
+  const float s = material.pattern == kPatternChecker ? checks : fractalNoise(at, material.patternOctaves);
   return clamp(material.albedo * (1.0 + material.patternContrast * s), 0.0, 1.0);
 #else
   return material.albedo;

@@ -105,8 +105,8 @@ const RegisteredScene<FigureSettings> kFigure{
      .source = "Holländer 2013, Table 2.1 (in place of its Big Guy)"},
     buildFigure};
 
-enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus };
-constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
+enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus, Seamed };
+constexpr EnumNames<ControlCage, 9> enumNames(ControlCage) {
   return {{{{ControlCage::Octahedron, "octahedron"},
             {ControlCage::Tetrahedron, "tetrahedron"},
             {ControlCage::Sheet, "sheet"},
@@ -114,7 +114,8 @@ constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
             {ControlCage::Valence, "valence"},
             {ControlCage::Crease, "crease"},
             {ControlCage::Collapsed, "collapsed"},
-            {ControlCage::TwoTorus, "double_torus"}}}};
+            {ControlCage::TwoTorus, "double_torus"},
+            {ControlCage::Seamed, "seamed_ring"}}}};
 }
 
 struct ControlMeshSettings {
@@ -127,7 +128,8 @@ struct ControlMeshSettings {
         {&S::cage, "cage",
          "Control mesh: closed ones of valence 4 or 3, an open sheet, open triangles around a vertex, two "
          "pyramids "
-         "base to base, those with a sharp waist, those with a collapsed triangle, or two joined rings"},
+         "base to base, those with a sharp waist, those with a collapsed triangle, two joined rings, or a "
+         "ring with texture coordinates that end at seams"},
         {&S::valence,
          "valence",
          {3, 50},
@@ -172,7 +174,10 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
 
 Scene buildControlMesh(const ControlMeshSettings& settings) {
   surfaces::SubdivisionSurface surface;
-  surface.cage = cageOf(settings);
+  if (settings.cage == ControlCage::Seamed)
+    surface = seamedRing(settings.figure.scheme == CageScheme::CatmullClark);
+  else
+    surface.cage = cageOf(settings);
   surface.scheme = settings.figure.scheme == CageScheme::CatmullClark
                        ? surfaces::SubdivisionScheme::CatmullClark
                    : settings.figure.scheme == CageScheme::Butterfly ? surfaces::SubdivisionScheme::Butterfly

@@ -61,8 +61,11 @@ static_assert(sizeof(SubdivisionPatch) == 96 && offsetof(SubdivisionPatch, corne
               offsetof(SubdivisionPatch, writes) == 80);
 #endif
 
-// A patch as the main step in compute reads it, whose tables have rows in the order of drawn vertices: those
-// inside the patch, from a multiple of 4 on those of its sides, then its corners.
+const int kMeshLanes = 32;  // invocations that share a patch in the main step in compute
+
+// A patch as the main step in compute reads it, whose tables have rows in an order of their own: those inside
+// the patch, in blocks of kMeshLanes times the rows of an invocation, each invocation's in succession; then
+// those of its sides, then its corners.
 struct MeshPatch {  // std430
   uint firstPoint, points;
   uint firstWeight;  // a multiple of 4
@@ -89,6 +92,9 @@ const uint kSubdivisionTablesBuffer = 2u;
 const uint kSubdivisionPlacesBuffer = 3u;  // rows' places (x in the lower 16 bits), then rows of places
 const uint kSubdivisionSourcesBuffer =
     3u;  // of a fine edge's or a corner's position and normal: see surfaces::TablePatch
+const uint kAttributeValuesBuffer = 5u;  // vec4
+const uint kFineAttributesBuffer = 4u;   // vec4 for each drawn vertex
+const uint kPackedAttributesBuffer = 7u;  // texture coordinates of each, 16 bits each
 const uint kFineVerticesBuffer = 4u;  // TessellatedVertex
 const uint kFineIndicesBuffer = 5u;
 

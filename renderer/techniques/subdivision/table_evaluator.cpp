@@ -25,8 +25,12 @@ surfaces::TableLayout layoutFor(const surfaces::SubdivisionSurface& surface,
                 "use " + std::to_string(steps) + " or more");
   if (settings.normals == NormalStart::Geometry && surface.scheme != surfaces::SubdivisionScheme::Loop)
     throw Error("tables of tangents are of Loop's scheme alone", "normals", "use normals: first");
-  return surfaces::tableLayout(surface.cage, surface.scheme, settings.level - steps, steps,
-                               settings.normals == NormalStart::Geometry);
+  const bool tangents = settings.normals == NormalStart::Geometry;
+  if (!surface.attributes)
+    return surfaces::tableLayout(surface.cage, surface.scheme, settings.level - steps, steps, tangents);
+  const surfaces::PolygonMesh attributes = surfaces::attributeMesh(surface.cage, *surface.attributes);
+  return surfaces::tableLayout(surface.cage, surface.scheme, settings.level - steps, steps, tangents,
+                               &attributes);
 }
 
 uint32_t counted(int64_t count, int64_t bytesEach, const char* what) {
@@ -139,12 +143,40 @@ void TableEvaluator::allocateMesh(gl::Context& context) {
     for (std::string one; std::getline(list, one, ',');)
       given[one.substr(0, one.find('='))] = one.substr(one.find('=') + 1);
   }
+  given["ROWS"] = std::to_string(records.rowsEach);
   given["SLOTS"] = std::to_string(layout_.mostSlots());
+  if (surface_.attributes) {
+    given["TEXTURED"] = "1";
+    makeAttributes(context, records);
+  }
   main_ = &context.programs().compute(kFolder + "fine_vertices.comp.glsl", given);
-  std::array<GLint, 3> size{};
-  glGetProgramiv(main_->id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
-  mainGroup_ = {size[0], size[1]};
   meshRows_ = {records.innerRows, records.firstBorderRow, records.rows, records.tangentStride};
+}
+
+void TableEvaluator::makeAttributes(gl::Context& context, const MeshRecords& records) {
+  std::vector<glm::vec4> values;
+  for (const glm::dvec3& value : layout_.attributeControls) values.emplace_back(value, 0.0);
+  const gl::Buffer patches(records.attributePatches), points(records.attributePoints), given(values);
+  attributes_.emplace(int64_t{vertexCount_} * 16, nullptr);
+  packedAttributes_.emplace((int64_t{vertexCount_} * 4 + 15) / 16 * 16, nullptr);
+  gl::ShaderDefines defined = defines();
+  defined["ROWS"] = std::to_string(records.rowsEach);
+  const gl::Program& program = context.programs().compute(kFolder + "fine_attributes.comp.glsl", defined);
+  patches.bindStorage(kSubdivisionPatchesBuffer);
+  points.bindStorage(kSubdivisionPointsBuffer);
+  meshWeights_->bindStorage(kSubdivisionTablesBuffer);
+  meshSources_->bindStorage(kSubdivisionSourcesBuffer);
+  given.bindStorage(kAttributeValuesBuffer);
+  attributes_->bindStorage(kFineAttributesBuffer);
+  packedAttributes_->bindStorage(kPackedAttributesBuffer);
+  program.use();
+  program.set("rows", records.rows);
+  program.set("innerRows", records.innerRows);
+  program.set("firstBorderRow", records.firstBorderRow);
+  program.set("cornerCount", static_cast<uint32_t>(layout_.controls.size()));
+  program.set("edgeCount", layout_.fineEdges);
+  program.set("level", layout_.tableLevel);
+  dispatch(program, "vertexCount", vertexCount_);
 }
 
 void TableEvaluator::dispatch(const gl::Program& program, const char* count, uint32_t of) const {
@@ -210,15 +242,13 @@ void TableEvaluator::runMain(frame::Frame& frame) const {
   meshSources_->bindStorage(kSubdivisionSourcesBuffer);
   controls_.bindStorage(kControlsBuffer);
   vertices_->bindStorage(kFineVerticesBuffer);
-  const auto groupsFor = [](uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); };
-  const uint32_t invocations = mainGroup_.x * mainGroup_.y,
-                 corners = static_cast<uint32_t>(layout_.controls.size()),
-                 patches = static_cast<uint32_t>(layout_.patches.size()),
-                 cornerGroups = groupsFor(corners, invocations),
-                 edgeGroups = segments() > 1
-                                  ? groupsFor(uint64_t{layout_.fineEdges} << layout_.tableLevel, invocations)
-                                  : 0,
-                 innerGroups = segments() > 1 ? groupsFor(patches, mainGroup_.y) : 0;
+  if (packedAttributes_) packedAttributes_->bindStorage(kPackedAttributesBuffer);
+  const auto groupsFor = [](uint64_t items) { return uint32_t((items + kMeshLanes - 1) / kMeshLanes); };
+  const uint32_t corners = static_cast<uint32_t>(layout_.controls.size()),
+                 patches = static_cast<uint32_t>(layout_.patches.size()), cornerGroups = groupsFor(corners),
+                 edgeGroups =
+                     segments() > 1 ? groupsFor(uint64_t{layout_.fineEdges} << layout_.tableLevel) : 0,
+                 innerGroups = segments() > 1 ? patches : 0;
   main_->use();
   main_->set("innerRows", meshRows_.inner);
   main_->set("firstBorderRow", meshRows_.firstBorder);
@@ -247,7 +277,8 @@ void TableEvaluator::stateBytes(frame::Frame& frame) const {
   frame.passes().setBytesHeld(
       "subdivision/main",
       bytes() + (vertices_ ? vertices_->bytes() + indices_->bytes() + meshPatches_->bytes() +
-                                 meshWeights_->bytes() + meshSources_->bytes()
+                                 meshWeights_->bytes() + meshSources_->bytes() +
+                                 (attributes_ ? attributes_->bytes() + packedAttributes_->bytes() : 0)
                            : 0));
 }
 

@@ -8,6 +8,8 @@
 
 namespace limen::techniques {
 
+struct MeshRecords;
+
 /// Where Subdivision Shading starts (Alexa and Boubekeur 2008; Holländer 2013, section 2.2.2): normals are
 /// found from triangles there and subdivided from there on as positions are.
 enum class NormalStart {
@@ -50,7 +52,9 @@ class TableEvaluator {
   uint32_t triangleCount() const { return triangleCount_; }
   const gl::Buffer& vertices() const { return *vertices_; }  ///< TessellatedVertex
   const gl::Buffer& indices() const { return *indices_; }    ///< three a triangle
-  const gl::Buffer& controls() const { return controls_; }   ///< ControlVertex
+  /// vec4 of texture coordinates and one more for each drawn vertex; null if the surface has no attributes.
+  const gl::Buffer* attributes() const { return attributes_ ? &*attributes_ : nullptr; }
+  const gl::Buffer& controls() const { return controls_; }  ///< ControlVertex
   /// Makes vertices() and indices(), which forms that draw patches do not need.
   void allocateMesh(gl::Context& context);
   /// For programs that include tables.glsl.
@@ -60,6 +64,7 @@ class TableEvaluator {
 
  private:
   void dispatch(const gl::Program& program, const char* count, uint32_t of) const;
+  void makeAttributes(gl::Context& context, const MeshRecords& records);
   void bindPose(const gl::Program& program, double timeS) const;
 
   TableEvaluatorSettings settings_;
@@ -70,13 +75,13 @@ class TableEvaluator {
   gl::Buffer rest_, joints_, positions_, entries_, terms_, fans_, controls_;
   std::optional<gl::Buffer> cageNormals_, cageEntries_, cageFans_;
   gl::Buffer patches_, points_, tables_, places_;
-  std::optional<gl::Buffer> vertices_, indices_, meshPatches_, meshWeights_, meshSources_;
+  std::optional<gl::Buffer> vertices_, indices_, meshPatches_, meshWeights_, meshSources_, attributes_,
+      packedAttributes_;
   const gl::Program &animate_, &controlsProgram_;
   const gl::Program *normalsProgram_ = nullptr, *cageNormalsProgram_ = nullptr, *main_ = nullptr;
   struct {
     uint32_t inner = 0, firstBorder = 0, all = 0, tangentStride = 0;
-  } meshRows_;                  ///< see MeshRecords
-  glm::uvec2 mainGroup_{1, 1};  ///< invocations a patch, patches
+  } meshRows_;  ///< see MeshRecords
 };
 
 }  // namespace limen::techniques

@@ -33,6 +33,9 @@ struct MeshRecords {
   std::vector<MeshPatch> patches;
   std::vector<float> weights;
   std::vector<glm::uvec2> sources;
+  std::vector<MeshPatch> attributePatches;  ///< of the same weights; their points are values of attributes
+  std::vector<uint32_t> attributePoints;
+  uint32_t rowsEach = 1;  ///< of an invocation, inside a patch: 1, 2 or 4
   uint32_t innerRows = 0, firstBorderRow = 0, rows = 0;
   uint32_t tangentStride = 0;  ///< in weights
 };
