@@ -209,6 +209,9 @@ TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int t
     out.entries = std::move(entries);
     out.mesh = once.mesh;
   }
+  if (!out.mesh.semiSharp.empty())
+    throw Error("edges are semi-sharp for more than " + std::to_string(steps) + " steps", "",
+                "tables start where edges are smooth, or sharp for ever");
   const HalfEdges edges(out.mesh.vertices, out.mesh.faces);
   std::vector<uint32_t> controlAt = makeControls(out, edges);
   std::optional<RefinedAttributes> refinedAttributes;

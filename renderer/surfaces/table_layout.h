@@ -56,8 +56,8 @@ struct TableLayout {
 inline constexpr size_t kMostSlots = 64;
 
 /// `attributes`: a mesh of their values, with the faces of `mesh`; vertices of the drawn mesh are then
-/// divided along seams. Throws Error where ruleMesh() does, of either mesh, or where a vertex has more edges
-/// than tables take.
+/// divided along seams. `steps`: stepsUntilSmooth() or more. Throws Error where ruleMesh() does, of either
+/// mesh, or where a vertex has more edges than tables take.
 TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int tableLevel, int steps = 1,
                         bool tangents = false, const PolygonMesh* attributes = nullptr);
 

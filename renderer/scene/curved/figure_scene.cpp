@@ -121,6 +121,7 @@ constexpr EnumNames<ControlCage, 9> enumNames(ControlCage) {
 struct ControlMeshSettings {
   ControlCage cage = ControlCage::Fan;
   int valence = 24;
+  double sharpness = surfaces::kInfinitelySharp;
   FigureSettings figure;
   static const SettingsTable<ControlMeshSettings>& table() {
     using S = ControlMeshSettings;
@@ -135,6 +136,12 @@ struct ControlMeshSettings {
          {3, 50},
          "edges",
          "Of the vertices that fan, valence, crease and collapsed have"},
+        {&S::sharpness,
+         "sharpness",
+         {0.0, surfaces::kInfinitelySharp},
+         "steps",
+         "For how many steps the edges of crease stay sharp; 10: for ever",
+         "DeRose et al. 1998"},
         included(&S::figure)};
     return kTable;
   }
@@ -154,7 +161,7 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
     case ControlCage::Crease: {
       surfaces::PolygonMesh mesh = pyramids(n);
       for (uint32_t i = 0; i < n; ++i)
-        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = surfaces::kInfinitelySharp;
+        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = settings.sharpness;
       return mesh;
     }
     case ControlCage::Collapsed: {

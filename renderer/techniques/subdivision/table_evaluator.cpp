@@ -19,10 +19,11 @@ constexpr int64_t kMostBytes = int64_t{3} << 30;  // of vertices or indices
 
 surfaces::TableLayout layoutFor(const surfaces::SubdivisionSurface& surface,
                                 const TableEvaluatorSettings& settings) {
-  const int steps = settings.normals == NormalStart::Second ? 2 : 1;
+  const int steps =
+      std::max(settings.normals == NormalStart::Second ? 2 : 1, surfaces::stepsUntilSmooth(surface.cage));
   if (settings.level < steps)
-    throw Error("tables start after " + std::to_string(steps) + " steps", "level",
-                "use " + std::to_string(steps) + " or more");
+    throw Error("tables start after " + std::to_string(steps) + " steps, where no edge is semi-sharp",
+                "level", "use " + std::to_string(steps) + " or more");
   if (settings.normals == NormalStart::Geometry && surface.scheme != surfaces::SubdivisionScheme::Loop)
     throw Error("tables of tangents are of Loop's scheme alone", "normals", "use normals: first");
   const bool tangents = settings.normals == NormalStart::Geometry;

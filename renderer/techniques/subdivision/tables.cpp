@@ -104,6 +104,9 @@ class SubdivisionTables : public Technique {
     evaluator_.emplace(frame.context(), surface, scene.parts[surface.part].material,
                        frame.gpuScene().anchor(), TableEvaluatorSettings{settings_.level, settings_.normals});
     const bool compute = settings_.form == MainStep::Compute, textured = surface.attributes.has_value();
+    if (surfaces::stepsUntilSmooth(surface.cage) > 4)
+      throw Error("an edge is semi-sharp for more than 4 steps", "scene",
+                  "use a lower sharpness, or 10: sharp for ever");
     if (textured && (!compute || settings_.adaptive()))
       throw Error("the surface has texture coordinates", "form", "use form: compute and refinement: uniform");
     lists_ = compute && frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
