@@ -240,6 +240,7 @@ TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int t
     one.patch.table = tableOf(piece, std::move(key), tangents);
     rotations.push_back(rotation);
     one.patch.parent = parents[f];
+    for (const uint32_t h : piece.halfEdges) one.patch.controls.push_back(controlAt[h]);
   }
   if (refinedAttributes) {
     const RefinedAttributes& of = *refinedAttributes;
