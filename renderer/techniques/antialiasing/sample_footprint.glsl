@@ -6,7 +6,8 @@
 // Of the surface's own plane: exact, and there are no borders.
 void setFootprint(ivec2 place, uint id, SeenPoint seen, float widening) {
   const vec3 ray = pixelRay(place, rayScale, sizePx);
-  const vec3 stepX = vec3(2.0 * rayScale.x / float(sizePx.x), 0.0, 0.0), stepY = vec3(0.0, -2.0 * rayScale.y / float(sizePx.y), 0.0);
+  const vec3 stepX = vec3(2.0 * rayScale.x / float(sizePx.x), 0.0, 0.0);
+  const vec3 stepY = vec3(0.0, -2.0 * rayScale.y / float(sizePx.y), 0.0);
   const float facing = dot(seen.normal, ray);
   const float least = facing < 0.0 ? min(facing, -1e-4) : max(facing, 1e-4);
   const mat3 turn = mat3(cameraToAnchor) * (widening * seen.depth);

@@ -6,15 +6,6 @@
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
 #include "renderer/techniques/subdivision/subdivision_bindings.h"
 
-#ifndef STAGED
-#define STAGED 1
-#endif
-#ifndef BORDER_BATCH
-#define BORDER_BATCH 4
-#endif
-#ifndef PART
-#define PART 0
-#endif
 layout(local_size_x = kMeshLanes) in;
 layout(std430, binding = kSubdivisionPatchesBuffer) readonly buffer Patches { uvec4 patches[]; };  // MeshPatch
 layout(std430, binding = kSubdivisionPointsBuffer) readonly buffer Points { uint points[]; };
@@ -48,6 +39,8 @@ vec3 unitNormal(vec3 v) {
   return size > 1e-30 ? v * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
 }
 
+const uint kBatch = 4u;  // of terms that are read at once, so that their latencies overlap
+
 struct Point {
   vec3 position, normal;
 };
@@ -55,10 +48,10 @@ struct Point {
 Point pointAt(uvec4 head, uint row) {
   precise vec3 position = vec3(0.0);
   vec3 normal = vec3(0.0), other = vec3(0.0);
-  for (uint first = 0u; first < head.y; first += uint(BORDER_BATCH)) {  // several at a time: their latencies overlap
-    vec3 p[BORDER_BATCH], n[BORDER_BATCH];
-    float w[BORDER_BATCH];
-    for (uint i = 0u; i < uint(BORDER_BATCH); ++i) {
+  for (uint first = 0u; first < head.y; first += kBatch) {
+    vec3 p[kBatch], n[kBatch];
+    float w[kBatch];
+    for (uint i = 0u; i < kBatch; ++i) {
       const uint slot = min(first + i, head.y - 1u), point = points[head.x + slot];
       w[i] = first + i < head.y ? weights[head.z + slot * rows + row] : 0.0;
       p[i] = controls[2u * point].xyz;
@@ -66,7 +59,7 @@ Point pointAt(uvec4 head, uint row) {
       n[i] = controls[2u * point + 1u].xyz;
 #endif
     }
-    for (uint i = 0u; i < uint(BORDER_BATCH); ++i) {
+    for (uint i = 0u; i < kBatch; ++i) {
       position = fma(vec3(w[i]), p[i], position);
 #ifndef GEOMETRY_NORMALS
       normal += w[i] * n[i];
@@ -103,9 +96,7 @@ void writeBorder(uint target, uvec2 ofPosition, uvec2 ofNormal) {
 }
 
 shared vec4 near[2 * SLOTS];
-#if STAGED
 shared uvec4 made[2 * kMeshLanes];
-#endif
 
 // Weights of an invocation's rows, which lie kMeshLanes apart, in succession.
 float[ROWS] weightsAt(uint at) {
@@ -151,34 +142,22 @@ void writeInner(uint number) {
       normal[r] = cross(normal[r], other[r]);
 #endif
       const uint firstOfRound = first + uint(r * kMeshLanes);
-      const uvec4 low = uvec4(floatBitsToUint(position[r]), material), high = uvec4(floatBitsToUint(unitNormal(normal[r])), lastWordOf(min(target + firstOfRound + lane, lastVertex)));
-#if STAGED
       // Neighbouring invocations write neighbouring bytes.
-      made[2u * lane] = low;
-      made[2u * lane + 1u] = high;
+      const uint lastWord = lastWordOf(min(target + firstOfRound + lane, lastVertex));
+      made[2u * lane] = uvec4(floatBitsToUint(position[r]), material);
+      made[2u * lane + 1u] = uvec4(floatBitsToUint(unitNormal(normal[r])), lastWord);
       barrier();
       for (uint i = 0u; i < 2u; ++i) {
         const uint half_ = lane + i * uint(kMeshLanes);
         if (firstOfRound + half_ / 2u < innerRows) fineVertices[2u * (target + firstOfRound) + half_] = made[half_];
       }
       barrier();
-#else
-      if (firstOfRound + lane < innerRows) {
-        fineVertices[2u * (target + firstOfRound + lane)] = low;
-        fineVertices[2u * (target + firstOfRound + lane) + 1u] = high;
-      }
-#endif
     }
   }
 }
 
 void main() {
   const uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-#if PART == 1
-  if (group >= cornerGroups + edgeGroups) return;
-#elif PART == 2
-  if (group < cornerGroups + edgeGroups) return;
-#endif
   if (group < cornerGroups) {
     const uint corner = group * uint(kMeshLanes) + gl_LocalInvocationIndex;
     if (corner >= cornerCount) return;

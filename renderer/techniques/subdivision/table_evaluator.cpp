@@ -4,9 +4,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <sstream>
 
 #include "renderer/techniques/subdivision/table_records.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
@@ -139,11 +136,6 @@ void TableEvaluator::allocateMesh(gl::Context& context) {
   meshWeights_.emplace(records.weights);
   meshSources_.emplace(records.sources);
   gl::ShaderDefines given = defines();
-  if (const char* more = std::getenv("LIMEN_MAIN_DEFINES")) {
-    std::stringstream list(more);
-    for (std::string one; std::getline(list, one, ',');)
-      given[one.substr(0, one.find('='))] = one.substr(one.find('=') + 1);
-  }
   given["ROWS"] = std::to_string(records.rowsEach);
   given["SLOTS"] = std::to_string(layout_.mostSlots());
   if (surface_.attributes) {

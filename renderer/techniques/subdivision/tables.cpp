@@ -255,7 +255,7 @@ class SubdivisionTables : public Technique {
 
 const RegisteredTechnique<SubdivisionTables> kSubdivisionTablesRegistered{
     {.name = "subdivision/tables",
-     .version = 1,
+     .version = 2,
      .summary =
          "Limit points of subdivision surfaces from tables of basis functions, the control mesh moving",
      .source = "Holländer 2013, chapter 2 (HOL-02 to HOL-08)",

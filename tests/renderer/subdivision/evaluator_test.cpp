@@ -340,37 +340,6 @@ TEST_F(TablesOnGpu, WhatDoesNotFitIsRefusedInWords) {
                Error);
 }
 
-TEST_F(TablesOnGpu, DISABLED_Time) {
-  const scene::Scene scene = makeScene("half_plane");
-  const frame::GpuScene gpuScene(scene);
-  frame::Frame frame(context(), scene, gpuScene, {8, 8});
-  for (const int level : {4, 5, 6}) {
-    TableEvaluator evaluator(context(), scene::figureOfTriangles(), 7, glm::dvec3(0.0),
-                             {level, NormalStart::First});
-    evaluator.allocateMesh(context());
-    const auto once = [&](int i) {
-      frame.begin();
-      evaluator.runFirstSteps(frame, 0.01 * i);
-      evaluator.runMain(frame);
-      frame.end();
-    };
-    for (int i = 0; i < 2000; ++i) once(i);
-    for (const gl::Recorded what : {gl::Recorded::Frames, gl::Recorded::Passes}) {
-      std::map<std::string, std::vector<double>> times;
-      frame.passes().startRecording(gl::Clock::Gpu, 300, what);
-      for (int i = 0; i < 300; ++i) once(i);
-      for (const gl::PassTime& time : frame.passes().finishRecording())
-        times[time.pass].push_back(1e-6 * double(time.nanoseconds));
-      std::printf("TIME level %d", level);
-      for (auto& [pass, list] : times) {
-        std::sort(list.begin(), list.end());
-        std::printf("  %s %.4f", pass.c_str(), list[list.size() / 2]);
-      }
-      std::printf("\n");
-    }
-  }
-}
-
 /// Directed edges, between places, that have no partner the other way. Triangles with two corners in one
 /// place have no edges that count.
 size_t openEdges(const std::vector<TessellatedVertex>& vertices, const std::vector<uint32_t>& indices,
