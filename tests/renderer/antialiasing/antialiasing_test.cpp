@@ -143,7 +143,7 @@ TEST_F(Antialiasing, GradientsAverageChecksOverThePixel) {
     scene::setStillCamera(scene, {{0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 41.1});
     constexpr glm::ivec2 kSize(24, 18);
     const auto picture = [&](const char* technique, Given given) {
-      given["shading.ambient"] = 1.0;
+      given = white(std::move(given));
       return render(scene, technique, given, kSize).product;
     };
     const Image reference = picture("antialiasing/ray_traced", {{"places", int64_t{4096}}});
