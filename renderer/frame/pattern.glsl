@@ -6,6 +6,30 @@ float checker(vec3 at) {
   return ((cell.x + cell.y + cell.z) & 1) == 0 ? 1.0 : -1.0;
 }
 
+// Of the wave that is 1 in even cells and -1 in odd ones, the integral from 0, and the mean over a width.
+float checkerIntegral(float at) { return 1.0 - abs(at - 2.0 * floor(0.5 * at) - 1.0); }
+float checkerMean(float at, float width) {
+  if (!(width > 1e-3)) return (int(floor(at)) & 1) == 0 ? 1.0 : -1.0;
+  if (width > 1e3) return 0.0;
+  return (checkerIntegral(at + 0.5 * width) - checkerIntegral(at - 0.5 * width)) / width;
+}
+
+// The checker over a parallelogram with these sides: boxes along the longer one, each as wide as its share of that side and the
+// shorter one are along each axis. As an anisotropic filter of a texture, with up to 16 places.
+float checkerWithin(vec3 at, vec3 sideA, vec3 sideB) {
+  const bool first = dot(sideA, sideA) > dot(sideB, sideB);
+  const vec3 along = first ? sideA : sideB, across = first ? sideB : sideA;
+  const float ratio = length(along) / max(length(across), 1e-6);
+  const int places = int(clamp(ceil(ratio), 1.0, 16.0));
+  const vec3 width = abs(along) / float(places) + abs(across);
+  float sum = 0.0;
+  for (int i = 0; i < places; ++i) {
+    const vec3 place = at + along * ((float(i) + 0.5) / float(places) - 0.5);
+    sum += checkerMean(place.x, width.x) * checkerMean(place.y, width.y) * checkerMean(place.z, width.z);
+  }
+  return sum / float(places);
+}
+
 // Random value of a lattice point: the first word of the hash "pcg3d" (Jarzynski and Olano 2020).
 float latticeValue(ivec3 point) {
   uvec3 v = uvec3(point) * 1664525u + 1013904223u;

@@ -21,17 +21,24 @@ float sunShare(ivec2 pixel, SeenPoint seen);
 float patternWidth = 0.0;
 vec3 patternNormal = vec3(0.0);
 #endif
+#ifdef FILTERED_PATTERN
+vec3 patternSideA = vec3(0.0), patternSideB = vec3(0.0);  // of the part of the surface over which checks are averaged
+#endif
 
 vec3 patterned(SurfaceMaterial material, vec3 position) {
 #ifdef PATTERN
   if (material.pattern == kPatternNone) return material.albedo;
   const vec3 at = (position - material.patternOrigin) * material.patternFrequency;
-#ifdef PATTERN_WIDTH
+#if defined(PATTERN_WIDTH)
   // Along each axis of the solid texture as far as the surface extends along it.
   const vec3 wide = patternWidth * material.patternFrequency * sqrt(max(1.0 - patternNormal * patternNormal, 0.0));
   const float s = material.pattern == kPatternChecker
                       ? checkerOver(at, wide)
                       : fractalNoiseOver(at, material.patternOctaves, max(wide.x, max(wide.y, wide.z)));
+#elif defined(FILTERED_PATTERN)
+  const float s = material.pattern == kPatternChecker
+                      ? checkerWithin(at, patternSideA * material.patternFrequency, patternSideB * material.patternFrequency)
+                      : fractalNoise(at, material.patternOctaves);
 #else
   const float s = material.pattern == kPatternChecker ? checker(at) : fractalNoise(at, material.patternOctaves);
 #endif

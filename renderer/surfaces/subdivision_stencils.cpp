@@ -71,11 +71,45 @@ std::optional<Stencil> smoothVertex(const RuleMesh& mesh, const HalfEdges& edges
   return sum.take();
 }
 
+void addScaled(StencilSum& sum, const Stencil& stencil, double scale) {
+  for (const auto& [vertex, weight] : stencil) sum.add(vertex, scale * weight);
+}
+
+/// A vertex some of whose edges are semi-sharp: the rule of the edges that are sharp now, blended with that
+/// of those that still are after the step where some lose their sharpness on the way.
+std::optional<Stencil> semiSharpVertex(const RuleMesh& mesh, const HalfEdges& edges, SubdivisionScheme scheme,
+                                       uint32_t v, const HalfEdges::Ring& ring) {
+  std::vector<uint32_t> now, next;
+  double lost = 0.0;
+  for (const uint32_t end : ring.ends) {
+    const auto given = mesh.semiSharp.find(edgeKey(v, end));
+    const bool semi = given != mesh.semiSharp.end();
+    if (!semi && !mesh.isSharp(v, end)) continue;
+    now.push_back(end);
+    if (semi && given->second <= 1.0)
+      lost += given->second;
+    else
+      next.push_back(end);
+  }
+  const auto rule = [&](const std::vector<uint32_t>& sharp) {
+    if (sharp.size() > 2) return Stencil{{v, 1.0}};
+    if (sharp.size() == 2) return mixed(v, 0.75, sharp, 0.125);
+    return *smoothVertex(mesh, edges, scheme, v, ring);
+  };
+  const double share =
+      now.size() == next.size() ? 1.0 : std::min(1.0, lost / double(now.size() - next.size()));
+  StencilSum sum;
+  addScaled(sum, rule(now), share);
+  if (share < 1.0) addScaled(sum, rule(next), 1.0 - share);
+  return sum.take();
+}
+
 std::optional<Stencil> vertexRule(const RuleMesh& mesh, const HalfEdges& edges, SubdivisionScheme scheme,
                                   uint32_t v) {
   if (scheme == SubdivisionScheme::Butterfly || mesh.corners.contains(v)) return Stencil{{v, 1.0}};
   if (edges.outgoing[v] == HalfEdges::kNone) return Stencil{{v, 1.0}};
   const HalfEdges::Ring ring = edges.ring(v);
+  if (!mesh.semiSharp.empty()) return semiSharpVertex(mesh, edges, scheme, v, ring);
   std::vector<uint32_t> sharp = sharpNeighbours(mesh, ring, v);
   if (!ring.closed && sharp.size() < 2) sharp = sharpNeighbours(mesh, v);
   if (sharp.size() == 2) return mixed(v, 0.75, sharp, 0.125);
@@ -128,8 +162,8 @@ std::optional<Stencil> butterflyEdge(const HalfEdges& edges, uint32_t h) {
   return sum.take();
 }
 
-std::optional<Stencil> edgeRule(const RuleMesh& mesh, const HalfEdges& edges, SubdivisionScheme scheme,
-                                uint32_t h) {
+std::optional<Stencil> smoothOrSharpEdge(const RuleMesh& mesh, const HalfEdges& edges,
+                                         SubdivisionScheme scheme, uint32_t h) {
   const uint32_t a = edges.from[h], b = edges.to(h);
   StencilSum sum;
   if (mesh.isSharp(a, b)) {
@@ -151,12 +185,32 @@ std::optional<Stencil> edgeRule(const RuleMesh& mesh, const HalfEdges& edges, Su
   return sum.take();
 }
 
+std::optional<Stencil> edgeRule(const RuleMesh& mesh, const HalfEdges& edges, SubdivisionScheme scheme,
+                                uint32_t h) {
+  std::optional<Stencil> rule = smoothOrSharpEdge(mesh, edges, scheme, h);
+  const EdgeKey edge = edgeKey(edges.from[h], edges.to(h));
+  const auto given = mesh.semiSharp.find(edge);
+  if (!rule || given == mesh.semiSharp.end()) return rule;
+  const double share = std::min(1.0, given->second);
+  StencilSum sum;
+  addScaled(sum, *rule, 1.0 - share);
+  addScaled(sum, {{edge[0], 0.5}, {edge[1], 0.5}}, share);
+  return sum.take();
+}
+
 }  // namespace
+
+int stepsUntilSmooth(const PolygonMesh& mesh) {
+  double most = 0.0;
+  for (const auto& [edge, s] : mesh.sharpness)
+    if (s < kInfinitelySharp) most = std::max(most, s);
+  return static_cast<int>(std::ceil(most));
+}
 
 RuleMesh ruleMesh(const PolygonMesh& mesh, SubdivisionScheme scheme) {
   if (const auto fault = findFault(mesh.points.size(), mesh.faces))
     throw Error("the control mesh is no manifold: " + fault->what, "", "mend the mesh");
-  RuleMesh out{mesh.points.size(), mesh.faces, {}, {}};
+  RuleMesh out{mesh.points.size(), mesh.faces, {}, {}, {}};
   std::map<EdgeKey, int> sides;
   std::vector<uint32_t> facesAt(out.vertices), sharpAt(out.vertices);
   for (const std::vector<uint32_t>& face : mesh.faces) {
@@ -172,17 +226,15 @@ RuleMesh ruleMesh(const PolygonMesh& mesh, SubdivisionScheme scheme) {
   for (const auto& [edge, count] : sides) {
     const auto given = mesh.sharpness.find(edge);
     const double s = given == mesh.sharpness.end() ? 0.0 : given->second;
-    if (count == 2 && s > 0.0 && s < kInfinitelySharp)
-      throw Error("an edge has sharpness " + std::to_string(s), "",
-                  "tables are of edges that are smooth or sharp for ever");
-    if (count == 2 && s == 0.0) continue;
+    if (count == 2 && s > 0.0 && s < kInfinitelySharp) out.semiSharp[edge] = s;
+    if (count == 2 && s < kInfinitelySharp) continue;
     out.sharp.insert(edge);
     for (const uint32_t end : edge) {
       ++sharpAt[end];
       if (count == 1) atBoundary.insert(end);
     }
   }
-  if (scheme == SubdivisionScheme::Butterfly && !out.sharp.empty())
+  if (scheme == SubdivisionScheme::Butterfly && !(out.sharp.empty() && out.semiSharp.empty()))
     throw Error("the mesh has boundaries or sharp edges", "",
                 "the Butterfly scheme here takes closed, smooth meshes");
   for (uint32_t v = 0; v < out.vertices; ++v)
@@ -210,6 +262,10 @@ SubdivisionStep refined(const RuleMesh& mesh, SubdivisionScheme scheme) {
     out.edgePoints[edge] = index;
     out.points.push_back(edgeRule(mesh, edges, scheme, h));
     if (mesh.sharp.contains(edge)) out.mesh.sharp.insert({edgeKey(edge[0], index), edgeKey(edge[1], index)});
+    const auto semi = mesh.semiSharp.find(edge);
+    if (semi != mesh.semiSharp.end() && semi->second > 1.0)
+      out.mesh.semiSharp[edgeKey(edge[0], index)] = out.mesh.semiSharp[edgeKey(edge[1], index)] =
+          semi->second - 1.0;
   }
   for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const std::vector<uint32_t>& face = mesh.faces[f];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -23,13 +24,19 @@ struct RuleMesh {
   std::vector<std::vector<uint32_t>> faces;
   std::set<EdgeKey> sharp;
   std::set<uint32_t> corners;  ///< three sharp edges or more, or one face at a boundary
+  /// Sharpness of edges that become smooth after as many steps; in the last of them rules are blended (DeRose
+  /// et al. 1998). None of them is in `sharp`.
+  std::map<EdgeKey, double> semiSharp;
 
   bool isSharp(uint32_t a, uint32_t b) const { return sharp.contains(edgeKey(a, b)); }
 };
 
-/// Throws Error where the mesh is no manifold (HOL-01), an edge is semi-sharp, or the scheme does not take
-/// its faces or its boundary.
+/// Throws Error where the mesh is no manifold (HOL-01), or the scheme does not take its faces, its boundary
+/// or its sharp edges.
 RuleMesh ruleMesh(const PolygonMesh& mesh, SubdivisionScheme scheme);
+
+/// After how many steps no edge is semi-sharp any more; 0 if none is.
+int stepsUntilSmooth(const PolygonMesh& mesh);
 
 /// Weights of vertices, ascending; they sum to 1, or to 0 for a tangent.
 using Stencil = std::vector<std::pair<uint32_t, double>>;
@@ -45,7 +52,8 @@ struct SubdivisionStep {
 };
 SubdivisionStep refined(const RuleMesh& mesh, SubdivisionScheme scheme);
 
-/// Where a vertex ends up if subdivision goes on for ever; of quads and triangles. None as above.
+/// Where a vertex ends up if subdivision goes on for ever; of quads and triangles without semi-sharp edges.
+/// None as above.
 std::optional<Stencil> limitStencil(const RuleMesh& mesh, const HalfEdges& edges, SubdivisionScheme scheme,
                                     uint32_t vertex);
 

@@ -20,6 +20,13 @@ struct JointBinding {
   float weight = 0.0F;  ///< 0..1
 };
 
+/// Values at the corners of a control mesh's faces, subdivided by the rules of positions with boundaries
+/// along seams: edges at whose ends its two faces have different values.
+struct CornerAttributes {
+  std::vector<glm::dvec3> values;            ///< texture coordinates, 0..1, and one more
+  std::vector<std::vector<uint32_t>> faces;  ///< of values, corner by corner as the control mesh's
+};
+
 /// A control mesh whose limit surface is drawn, with linear blend skinning.
 struct SubdivisionSurface {
   PolygonMesh cage;
@@ -27,7 +34,11 @@ struct SubdivisionSurface {
   uint32_t part = 0;  ///< of Scene::parts
   std::vector<Joint> joints;
   std::vector<JointBinding> bindings;  ///< empty, or one for each vertex of the cage
+  std::optional<CornerAttributes> attributes;
 };
+
+/// A mesh of the values themselves, its sharp edges the cage's. Throws Error where faces do not agree.
+PolygonMesh attributeMesh(const PolygonMesh& cage, const CornerAttributes& attributes);
 
 /// The cage's vertices at a time.
 std::vector<glm::dvec3> skinned(const SubdivisionSurface& surface, double timeS);

@@ -56,9 +56,29 @@ std::vector<uint32_t> makeControls(TableLayout& out, const HalfEdges& edges) {
   return controlAt;
 }
 
+/// The same with a control for each value of the attributes, whose half-edges are numbered as the mesh's.
+void divideByAttributes(TableLayout& out, std::vector<uint32_t>& controlAt, const HalfEdges& attributes) {
+  std::map<std::array<uint32_t, 2>, uint32_t> known;
+  std::vector<char> taken(out.controls.size());
+  for (uint32_t h = 0; h < controlAt.size(); ++h) {
+    const uint32_t control = controlAt[h];
+    const auto [at, added] = known.emplace(std::array{control, attributes.from[h]}, control);
+    if (added && taken[control]) {
+      at->second = static_cast<uint32_t>(out.controls.size());
+      out.controls.push_back(TableControl(out.controls[control]));
+    }
+    taken[control] = 1;
+    controlAt[h] = at->second;
+  }
+}
+
 /// Regular faces alone need no choice of their first corner; for all others the smallest key.
-std::pair<Surroundings, std::vector<uint32_t>> canonical(const TableLayout& layout, const HalfEdges& edges,
-                                                         uint32_t face) {
+struct Canonical {
+  Surroundings piece;
+  std::vector<uint32_t> key;
+  size_t rotation = 0;
+};
+Canonical canonical(const TableLayout& layout, const HalfEdges& edges, uint32_t face) {
   const size_t corners = layout.corners(), plain = corners == 3 ? 6 : 4;
   const int rings = ringsOf(layout.scheme);
   std::vector<size_t> rotations;
@@ -70,11 +90,11 @@ std::pair<Surroundings, std::vector<uint32_t>> canonical(const TableLayout& layo
     if (!ring.closed || ring.ends.size() != plain || sharp) rotations.push_back(c);
   }
   if (rotations.empty()) rotations.push_back(0);
-  std::optional<std::pair<Surroundings, std::vector<uint32_t>>> best;
+  std::optional<Canonical> best;
   for (const size_t rotation : rotations) {
     Surroundings piece = surroundingsOf(layout.mesh, edges, face, rotation, rings);
     std::vector<uint32_t> key = keyOf(piece);
-    if (!best || key < best->second) best.emplace(std::move(piece), std::move(key));
+    if (!best || key < best->key) best.emplace(Canonical{std::move(piece), std::move(key), rotation});
   }
   return *best;
 }
@@ -85,8 +105,36 @@ void requireSlots(const Surroundings& piece) {
                 "tables take " + std::to_string(kMostSlots) + ": divide faces at vertices of many edges");
 }
 
+/// A mesh of values after the first steps; its half-edges are numbered as those of the refined mesh.
+struct RefinedAttributes {
+  RuleMesh mesh;
+  std::vector<glm::dvec3> values;
+  HalfEdges edges;
+
+  RefinedAttributes(const PolygonMesh& given, SubdivisionScheme scheme, int steps)
+      : mesh(ruleMesh(given, scheme)), values(given.points), edges(0, {}) {
+    for (int step = 0; step < steps; ++step) {
+      const SubdivisionStep once = refined(mesh, scheme);
+      std::vector<glm::dvec3> finer;
+      for (const auto& point : once.points) {
+        glm::dvec3 sum(0.0);
+        for (const auto& [from, weight] : *point) sum += weight * values[from];
+        finer.push_back(sum);
+      }
+      values = std::move(finer);
+      mesh = once.mesh;
+    }
+    edges = HalfEdges(mesh.vertices, mesh.faces);
+  }
+};
+
 /// Who makes the vertices of sides and corners.
-void shareOut(TableLayout& out, const HalfEdges& edges, const std::vector<uint32_t>& firstHalf) {
+void shareOut(TableLayout& out, const HalfEdges& edges, const std::vector<uint32_t>& firstHalf,
+              const HalfEdges* attributes) {
+  const auto isSeam = [&](uint32_t h) {
+    const uint32_t twin = edges.twin[h];
+    return attributes && twin != HalfEdges::kNone && attributes->twin[h] != twin;
+  };
   const auto k = static_cast<uint32_t>(out.corners());
   std::vector<uint32_t> sideAt(edges.from.size());  // 4 patch + side
   for (uint32_t p = 0; p < out.patches.size(); ++p) {
@@ -101,7 +149,7 @@ void shareOut(TableLayout& out, const HalfEdges& edges, const std::vector<uint32
     for (uint32_t s = 0; s < k; ++s, h = edges.next[h]) {
       const uint32_t twin = edges.twin[h], v = edges.from[h];
       const bool first = twin == HalfEdges::kNone || sideAt[h] < sideAt[twin];
-      const bool split = out.mesh.isSharp(v, edges.to(h));
+      const bool split = out.mesh.isSharp(v, edges.to(h)) || isSeam(h);
       patch.edgeSources[s] = first ? 8 * p + 2 * s : 8 * (sideAt[twin] / 4) + 2 * (sideAt[twin] % 4) + 1;
       patch.writesEdge[s] = first || split;
       patch.edges[s] =
@@ -138,7 +186,7 @@ int64_t TableLayout::trianglesAt(int level) const {
 }
 
 TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int tableLevel, int steps,
-                        bool tangents) {
+                        bool tangents, const PolygonMesh* attributes) {
   TableLayout out;
   out.scheme = scheme;
   out.steps = steps;
@@ -161,24 +209,46 @@ TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int t
     out.entries = std::move(entries);
     out.mesh = once.mesh;
   }
+  if (!out.mesh.semiSharp.empty())
+    throw Error("edges are semi-sharp for more than " + std::to_string(steps) + " steps", "",
+                "tables start where edges are smooth, or sharp for ever");
   const HalfEdges edges(out.mesh.vertices, out.mesh.faces);
-  const std::vector<uint32_t> controlAt = makeControls(out, edges);
+  std::vector<uint32_t> controlAt = makeControls(out, edges);
+  std::optional<RefinedAttributes> refinedAttributes;
+  if (attributes) {
+    refinedAttributes.emplace(*attributes, scheme, steps);
+    out.attributeControls = refinedAttributes->values;
+    divideByAttributes(out, controlAt, refinedAttributes->edges);
+  }
   std::map<std::vector<uint32_t>, uint32_t> known;
   struct Made {
     TablePatch patch;
     uint32_t firstHalf;
   };
   std::vector<Made> made;
-  for (uint32_t f = 0; f < out.mesh.faces.size(); ++f) {
-    auto [piece, key] = canonical(out, edges, f);
+  const auto tableOf = [&](const Surroundings& piece, std::vector<uint32_t> key, bool withTangents) {
     requireSlots(piece);
     const auto [at, added] = known.emplace(std::move(key), static_cast<uint32_t>(out.tables.size()));
-    if (added) out.tables.push_back(basisTable(piece, scheme, tableLevel, tangents));
+    if (added) out.tables.push_back(basisTable(piece, scheme, tableLevel, withTangents));
+    return at->second;
+  };
+  std::vector<size_t> rotations;
+  for (uint32_t f = 0; f < out.mesh.faces.size(); ++f) {
+    auto [piece, key, rotation] = canonical(out, edges, f);
     Made& one = made.emplace_back();
     one.firstHalf = piece.firstHalfEdge;
-    one.patch.table = at->second;
+    one.patch.table = tableOf(piece, std::move(key), tangents);
+    rotations.push_back(rotation);
     one.patch.parent = parents[f];
     for (const uint32_t h : piece.halfEdges) one.patch.controls.push_back(controlAt[h]);
+  }
+  if (refinedAttributes) {
+    const RefinedAttributes& of = *refinedAttributes;
+    for (uint32_t f = 0; f < made.size(); ++f) {
+      const Surroundings own = surroundingsOf(of.mesh, of.edges, f, rotations[f], ringsOf(scheme));
+      made[f].patch.attributeTable = tableOf(own, keyOf(own), false);
+      for (const uint32_t h : own.halfEdges) made[f].patch.attributeControls.push_back(of.edges.from[h]);
+    }
   }
   // Patches of one table in succession: their work groups read the same rows.
   std::stable_sort(made.begin(), made.end(),
@@ -188,7 +258,7 @@ TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int t
     out.patches.push_back(std::move(one.patch));
     firstHalf.push_back(one.firstHalf);
   }
-  shareOut(out, edges, firstHalf);
+  shareOut(out, edges, firstHalf, refinedAttributes ? &refinedAttributes->edges : nullptr);
   return out;
 }
 

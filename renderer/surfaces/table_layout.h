@@ -23,6 +23,9 @@ struct TablePatch {
   std::array<uint32_t, 4> edgeSources{}, cornerSources{};
   std::array<bool, 4> writesEdge{}, writesCorner{};  ///< of the one vertex that several patches share
   uint32_t parent = 0;                               ///< face of the control mesh
+  /// Of attributes: seams are boundaries, so that it is the same table only where none is near.
+  uint32_t attributeTable = 0;
+  std::vector<uint32_t> attributeControls;  ///< one for each of that table's slots
 };
 
 /// How a control mesh is evaluated by tables (Holländer 2013, sections 2.2.1 to 2.2.3); made once for its
@@ -39,6 +42,7 @@ struct TableLayout {
   std::vector<BasisTable> tables;
   std::vector<Place> places;
   uint32_t fineEdges = 0;
+  std::vector<glm::dvec3> attributeControls;  ///< values after the first steps; empty without attributes
 
   size_t corners() const { return cornersOf(scheme); }
   uint32_t rows() const { return placesAt(corners(), tableLevel); }
@@ -51,8 +55,10 @@ struct TableLayout {
 /// Slots that a table may have at most: 2 for each edge of a vertex of valence 58 and its surroundings.
 inline constexpr size_t kMostSlots = 64;
 
-/// Throws Error where ruleMesh() does, or where a vertex has more edges than tables take.
+/// `attributes`: a mesh of their values, with the faces of `mesh`; vertices of the drawn mesh are then
+/// divided along seams. `steps`: stepsUntilSmooth() or more. Throws Error where ruleMesh() does, of either
+/// mesh, or where a vertex has more edges than tables take.
 TableLayout tableLayout(const PolygonMesh& mesh, SubdivisionScheme scheme, int tableLevel, int steps = 1,
-                        bool tangents = false);
+                        bool tangents = false, const PolygonMesh* attributes = nullptr);
 
 }  // namespace limen::surfaces

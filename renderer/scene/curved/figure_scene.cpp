@@ -96,8 +96,8 @@ const RegisteredScene<FigureSettings> kFigure{
      .source = "Holländer 2013, Table 2.1 (in place of its Big Guy)"},
     buildFigure};
 
-enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus };
-constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
+enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus, Seamed };
+constexpr EnumNames<ControlCage, 9> enumNames(ControlCage) {
   return {{{{ControlCage::Octahedron, "octahedron"},
             {ControlCage::Tetrahedron, "tetrahedron"},
             {ControlCage::Sheet, "sheet"},
@@ -105,12 +105,14 @@ constexpr EnumNames<ControlCage, 8> enumNames(ControlCage) {
             {ControlCage::Valence, "valence"},
             {ControlCage::Crease, "crease"},
             {ControlCage::Collapsed, "collapsed"},
-            {ControlCage::TwoTorus, "double_torus"}}}};
+            {ControlCage::TwoTorus, "double_torus"},
+            {ControlCage::Seamed, "seamed_ring"}}}};
 }
 
 struct ControlMeshSettings {
   ControlCage cage = ControlCage::Fan;
   int valence = 24;
+  double sharpness = surfaces::kInfinitelySharp;
   FigureSettings figure;
   static const SettingsTable<ControlMeshSettings>& table() {
     using S = ControlMeshSettings;
@@ -118,12 +120,19 @@ struct ControlMeshSettings {
         {&S::cage, "cage",
          "Control mesh: closed ones of valence 4 or 3, an open sheet, open triangles around a vertex, two "
          "pyramids "
-         "base to base, those with a sharp waist, those with a collapsed triangle, or two joined rings"},
+         "base to base, those with a sharp waist, those with a collapsed triangle, two joined rings, or a "
+         "ring with texture coordinates that end at seams"},
         {&S::valence,
          "valence",
          {3, 50},
          "edges",
          "Of the vertices that fan, valence, crease and collapsed have"},
+        {&S::sharpness,
+         "sharpness",
+         {0.0, surfaces::kInfinitelySharp},
+         "steps",
+         "For how many steps the edges of crease stay sharp; 10: for ever",
+         "DeRose et al. 1998"},
         included(&S::figure)};
     return kTable;
   }
@@ -143,7 +152,7 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
     case ControlCage::Crease: {
       surfaces::PolygonMesh mesh = pyramids(n);
       for (uint32_t i = 0; i < n; ++i)
-        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = surfaces::kInfinitelySharp;
+        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = settings.sharpness;
       return mesh;
     }
     case ControlCage::Collapsed: {
@@ -163,7 +172,10 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
 
 Scene buildControlMesh(const ControlMeshSettings& settings) {
   surfaces::SubdivisionSurface surface;
-  surface.cage = cageOf(settings);
+  if (settings.cage == ControlCage::Seamed)
+    surface = seamedRing(settings.figure.scheme == CageScheme::CatmullClark);
+  else
+    surface.cage = cageOf(settings);
   surface.scheme = settings.figure.scheme == CageScheme::CatmullClark
                        ? surfaces::SubdivisionScheme::CatmullClark
                    : settings.figure.scheme == CageScheme::Butterfly ? surfaces::SubdivisionScheme::Butterfly

@@ -105,4 +105,39 @@ surfaces::PolygonMesh closedCage(CageShape shape) {
   return mesh;
 }
 
+surfaces::SubdivisionSurface seamedRing(bool quads) {
+  constexpr uint32_t kAlong = 10, kAround = 6;
+  surfaces::SubdivisionSurface out;
+  out.scheme = quads ? surfaces::SubdivisionScheme::CatmullClark : surfaces::SubdivisionScheme::Loop;
+  surfaces::CornerAttributes& attributes = out.attributes.emplace();
+  const auto point = [](uint32_t i, uint32_t j) {
+    const double along = 2.0 * M_PI * i / kAlong, around = 2.0 * M_PI * j / kAround;
+    const double radius = 1.0 + 0.4 * std::cos(around);
+    return glm::dvec3(radius * std::cos(along), radius * std::sin(along), 0.4 * std::sin(around));
+  };
+  for (uint32_t j = 0; j < kAround; ++j)
+    for (uint32_t i = 0; i < kAlong; ++i) out.cage.points.push_back(point(i, j));
+  for (uint32_t j = 0; j <= kAround; ++j)
+    for (uint32_t i = 0; i <= kAlong; ++i)
+      attributes.values.emplace_back(double(i) / kAlong, double(j) / kAround,
+                                     point(i % kAlong, j % kAround).y);
+  const auto add = [&](const std::vector<std::array<uint32_t, 2>>& corners) {
+    std::vector<uint32_t>&face = out.cage.faces.emplace_back(), &values = attributes.faces.emplace_back();
+    for (const auto& [i, j] : corners) {
+      face.push_back(i % kAlong + kAlong * (j % kAround));
+      values.push_back(i + (kAlong + 1) * j);
+    }
+  };
+  for (uint32_t j = 0; j < kAround; ++j)
+    for (uint32_t i = 0; i < kAlong; ++i) {
+      if (quads) {
+        add({{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
+        continue;
+      }
+      add({{i, j}, {i + 1, j}, {i + 1, j + 1}});
+      add({{i, j}, {i + 1, j + 1}, {i, j + 1}});
+    }
+  return out;
+}
+
 }  // namespace limen::scene

@@ -3,6 +3,7 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/surfaces/polygon_mesh.h"
+#include "renderer/surfaces/subdivision_surface.h"
 
 namespace limen::scene {
 
@@ -32,5 +33,8 @@ surfaces::PolygonMesh tetrahedron();
 surfaces::PolygonMesh bumpySheet(uint32_t side, bool quads);
 /// Triangles around a vertex of the boundary, which is number 0.
 surfaces::PolygonMesh openFan(uint32_t faces);
+/// A ring, standing, with texture coordinates from 0 to 1 around it and along it, which end at two seams that
+/// cross, and its height as the third attribute, which has no seam of its own. Quads, or triangles.
+surfaces::SubdivisionSurface seamedRing(bool quads);
 
 }  // namespace limen::scene

@@ -37,6 +37,21 @@ const SettingsTable<SampleShading>& SampleShading::table() {
   return kTable;
 }
 
+const SettingsTable<NeighbourGradients>& NeighbourGradients::table() {
+  using S = NeighbourGradients;
+  static const SettingsTable<S> kTable = {
+      {&S::borders, "borders",
+       "Look checks up at points where the next sample sees another material or lies beyond an edge of depth",
+       "Holländer 2013, section 4.3.4"},
+      {&S::borderDepthRatio,
+       "border_depth_ratio",
+       {1.0, 1000.0},
+       "",
+       "Ratio of two samples' depths from which on there is an edge between them",
+       "bench (value not given in Holländer 2013, section 4.3.4)"}};
+  return kTable;
+}
+
 gl::ShaderDefines sampleShadingDefines(const SampleShading& settings, const frame::Frame& frame) {
   gl::ShaderDefines defines = frame::shadingDefines(settings.shading, frame);
   defines["LIGHT_SAMPLES"] = std::to_string(settings.lightSamples);
@@ -60,8 +75,9 @@ void configureSampleShading(const gl::Program& program, frame::Frame& frame, con
                              settings.shading.shadowResolution);
 }
 
-SampleView::SampleView(frame::Frame& parent, int window, const SampleShading& settings)
-    : parent_(parent), window_(window), settings_(settings) {
+SampleView::SampleView(frame::Frame& parent, int window, const SampleShading& settings,
+                       const SampleGradients& gradients)
+    : parent_(parent), window_(window), settings_(settings), gradients_(gradients) {
   const glm::ivec2 sizePx = parent.sizePx() * window;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -86,6 +102,11 @@ gl::ShaderDefines SampleView::defines() const {
   gl::ShaderDefines defines = sampleShadingDefines(settings_, *frame_);
   defines["WINDOW"] = std::to_string(window_);
   defines["ORDER"] = windowOrderGlsl(window_);
+  defineEnum(defines, "GRADIENTS", static_cast<Gradients>(gradients_.index()));
+  if (const auto* neighbours = std::get_if<NeighbourGradients>(&gradients_)) {
+    if (neighbours->borders) defines["BORDERS"] = "1";
+    defines["BORDER_DEPTH_RATIO"] = std::to_string(neighbours->borderDepthRatio);
+  }
   return defines;
 }
 

@@ -25,6 +25,34 @@ constexpr EnumNames<SampleForm, 5> enumNames(SampleForm) {
             {SampleForm::Sorted, "sorted"}}}};
 }
 
+struct NoGradients {
+  static constexpr const char *kKind = "none", *kSummary = "patterns are looked up at points";
+};
+struct PlaneGradients {
+  static constexpr const char *kKind = "plane",
+                              *kSummary = "checks are averaged over what a sample stands for on its plane";
+};
+struct NeighbourGradients {
+  static constexpr const char *kKind = "neighbours",
+                              *kSummary = "the same from differences of positions of neighbouring samples";
+  bool borders = true;
+  double borderDepthRatio = 1.05;
+  static const SettingsTable<NeighbourGradients>& table();
+};
+using SampleGradients = std::variant<NoGradients, PlaneGradients, NeighbourGradients>;
+enum class Gradients { None, Plane, Neighbours };  ///< in the order of SampleGradients
+constexpr EnumNames<Gradients, 3> enumNames(Gradients) {
+  return {{{{Gradients::None, "none"}, {Gradients::Plane, "plane"}, {Gradients::Neighbours, "neighbours"}}}};
+}
+/// Binding of a member of this type.
+template <class S>
+Binding<S> gradientsBinding(SampleGradients S::*member) {
+  return {member, "gradients",
+          "How wide checks are filtered; the fewer samples of a pixel are shaded, the wider: by the root of "
+          "their share",
+          "Holländer 2013, section 4.3.4 (the factor is reconstructed)"};
+}
+
 /// How samples are shaded: settings that all techniques of the family and their reference share.
 struct SampleShading {
   frame::ShadedSetting shading;
@@ -46,7 +74,8 @@ void makeShadowOf(frame::Frame& frame, const SampleShading& settings);
 class SampleView {
  public:
   /// Throws Error if the samples make an image larger than the driver's largest texture.
-  SampleView(frame::Frame& parent, int window, const SampleShading& settings);
+  SampleView(frame::Frame& parent, int window, const SampleShading& settings,
+             const SampleGradients& gradients = {});
 
   /// Makes the samples' triangles and what shading needs of other passes.
   void make();
@@ -63,6 +92,7 @@ class SampleView {
   frame::Frame& parent_;
   int window_;
   SampleShading settings_;
+  SampleGradients gradients_;
   std::unique_ptr<frame::Frame> frame_;
 };
 

@@ -34,9 +34,9 @@ void main() {
     uint owner = 0u;
     for (uint step = uint(kPixels) / 2u; step > 0u; step /= 2u)
       if (ends[owner + step - 1u] <= item) owner += step;
-    const uint n = item - (owner > 0u ? ends[owner - 1u] : 0u) + 1u;
+    const uint before = owner > 0u ? ends[owner - 1u] : 0u, n = item - before + 1u;
     const ivec2 at = corner + ivec2(owner % uint(kGroupSide), owner / uint(kGroupSide));
-    colours[item] = sampleColour(WINDOW * at + kOrder[n]);
+    colours[item] = sampleColour(WINDOW * at + kOrder[n], int(ends[owner] - before) + 1);
   }
   barrier();
   if (!inside) return;

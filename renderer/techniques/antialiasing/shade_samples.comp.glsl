@@ -20,7 +20,7 @@ uniform int group;  // grouped: the number of samples of the pixels in turn
 // The mean of `count` samples, the first of which is known.
 vec3 meanColour(ivec2 pixel, vec3 first, int count) {
   precise vec3 sum = first;
-  for (int n = 1; n < count; ++n) sum += sampleColour(WINDOW * pixel + kOrder[n]);
+  for (int n = 1; n < count; ++n) sum += sampleColour(WINDOW * pixel + kOrder[n], count);
   precise const vec3 mean = sum / float(count);
   return mean;
 }
@@ -36,9 +36,9 @@ void main() {
   if (any(greaterThanEqual(pixel, pictureSizePx))) return;
 #endif
 #if FORM == FORM_FIRST
-  const vec3 colour = sampleColour(WINDOW * pixel + kOrder[0]);
+  const vec3 colour = sampleColour(WINDOW * pixel + kOrder[0], 1);
 #elif FORM == FORM_FULL
-  const vec3 colour = meanColour(pixel, sampleColour(WINDOW * pixel + kOrder[0]), kSamples);
+  const vec3 colour = meanColour(pixel, sampleColour(WINDOW * pixel + kOrder[0], kSamples), kSamples);
 #else
   const int count = int(texelFetch(counts, pixel, 0).x);
 #if FORM == FORM_GROUPED

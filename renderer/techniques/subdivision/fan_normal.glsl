@@ -8,10 +8,13 @@ vec3 fanNormal(vec3 centre, ControlEntry entry) {
   if (around < 2u) return vec3(0.0);
   const vec3 first = positionOf(fans[entry.firstAround]) - centre;
   vec3 last = first, sum = vec3(0.0);
-  for (uint i = 1u; i < around; ++i) {
-    const vec3 edge = positionOf(fans[entry.firstAround + i]) - centre;
-    sum += cross(last, edge);
-    last = edge;
+  for (uint i = 1u; i < around; i += 4u) {  // four at a time: their latencies overlap
+    vec3 edges[4];
+    for (uint j = 0u; j < 4u; ++j) edges[j] = positionOf(fans[entry.firstAround + min(i + j, around - 1u)]) - centre;
+    for (uint j = 0u; j < 4u; ++j) {
+      if (i + j < around) sum += cross(last, edges[j]);
+      last = edges[j];
+    }
   }
   if (closed) sum += cross(last, first);
   // Scaled, as areas of small meshes have squares that vanish.

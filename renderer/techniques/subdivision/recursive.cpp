@@ -3,6 +3,7 @@
 // their limits; it knows nothing of tables (renderer/surfaces/loop_subdivision.h, catmull_clark.h).
 #include <epoxy/gl.h>
 
+#include <cmath>
 #include <optional>
 
 #include "renderer/frame/g_buffer.h"
@@ -30,15 +31,32 @@ struct RecursiveSettings {
   }
 };
 
+uint32_t packedPlace(const glm::dvec3& value) {
+  const auto bits = [](double x) {
+    return static_cast<uint32_t>(std::lround(65535.0 * glm::clamp(x, 0.0, 1.0)));
+  };
+  return bits(value.x) | bits(value.y) << 16U;
+}
+
 /// Every corner of every face with the limit point and normal that it has there.
 template <class Limit>
 void addFaces(const surfaces::PolygonMesh& mesh, const Limit& limit, uint32_t material, glm::dvec3 anchor,
+              const surfaces::PolygonMesh* values, const std::vector<glm::dvec3>& valueLimits,
               std::vector<TessellatedVertex>& out) {
   for (size_t f = 0; f < mesh.faces.size(); ++f)
     for (size_t i = 2; i < mesh.faces[f].size(); ++i)
       for (const size_t c : {size_t{0}, i - 1, i})
         out.push_back({glm::vec3(limit.points[mesh.faces[f][c]] - anchor), material,
-                       glm::vec3(limit.normals[f][c]), kRungField});
+                       glm::vec3(limit.normals[f][c]),
+                       values ? packedPlace(valueLimits[values->faces[f][c]]) : kRungField});
+}
+
+/// Attributes as a mesh of their own, refined as positions are.
+template <class Refine>
+std::optional<surfaces::PolygonMesh> refinedValues(const surfaces::SubdivisionSurface& surface,
+                                                   Refine refine) {
+  if (!surface.attributes) return std::nullopt;
+  return refine(surfaces::attributeMesh(surface.cage, *surface.attributes));
 }
 
 class RecursiveSubdivision : public Technique {
@@ -61,18 +79,27 @@ class RecursiveSubdivision : public Technique {
     std::vector<TessellatedVertex> vertices;
     if (surface.scheme == surfaces::SubdivisionScheme::Loop) {
       const surfaces::PolygonMesh fine = surfaces::loop(std::move(cage), settings_.level);
-      addFaces(fine, surfaces::loopLimit(fine), material, anchor, vertices);
+      const std::optional<surfaces::PolygonMesh> values =
+          refinedValues(surface, [&](const auto& mesh) { return surfaces::loop(mesh, settings_.level); });
+      addFaces(fine, surfaces::loopLimit(fine), material, anchor, values ? &*values : nullptr,
+               values ? surfaces::loopLimit(*values).points : std::vector<glm::dvec3>(), vertices);
     } else {
       const surfaces::PolygonMesh fine =
           surfaces::catmullClark(std::move(cage), std::max(1, settings_.level));
-      addFaces(fine, surfaces::catmullClarkLimit(fine), material, anchor, vertices);
+      const std::optional<surfaces::PolygonMesh> values = refinedValues(surface, [&](const auto& mesh) {
+        return surfaces::catmullClark(mesh, std::max(1, settings_.level));
+      });
+      addFaces(fine, surfaces::catmullClarkLimit(fine), material, anchor, values ? &*values : nullptr,
+               values ? surfaces::catmullClarkLimit(*values).points : std::vector<glm::dvec3>(), vertices);
     }
     count_ = static_cast<int>(vertices.size());
     vertices_.emplace(vertices);
     array_.emplace(*vertices_);
     picture_.emplace(frame, settings_.shading, "subdivision");
-    program_ = &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",
-                                                "renderer/techniques/tessellation/surface.frag.glsl"});
+    program_ = &frame.context().programs().get(
+        {"renderer/techniques/tessellation/compute/surface.vert.glsl",
+         "renderer/techniques/tessellation/surface.frag.glsl"},
+        surface.attributes ? gl::ShaderDefines{{"TEXTURED", "1"}} : gl::ShaderDefines{});
     frame.passes().setBytesHeld("subdivision/vertices", vertices_->bytes());
   }
 

@@ -61,6 +61,20 @@ static_assert(sizeof(SubdivisionPatch) == 96 && offsetof(SubdivisionPatch, corne
               offsetof(SubdivisionPatch, writes) == 80);
 #endif
 
+const int kMeshLanes = 32;  // invocations that share a patch in the main step in compute
+
+// A patch as the main step in compute reads it, whose tables have rows in an order of their own: those inside
+// the patch, in blocks of kMeshLanes times the rows of an invocation, each invocation's in succession; then
+// those of its sides, then its corners.
+struct MeshPatch {  // std430
+  uint firstPoint, points;
+  uint firstWeight;  // a multiple of 4
+  uint unused;
+};
+#ifdef __cplusplus
+static_assert(sizeof(MeshPatch) == 16);
+#endif
+
 // First steps.
 const uint kCageRestBuffer = 0u;
 const uint kCageJointsBuffer = 1u;
@@ -76,7 +90,12 @@ const uint kSubdivisionPatchesBuffer = 0u;
 const uint kSubdivisionPointsBuffer = 1u;
 const uint kSubdivisionTablesBuffer = 2u;
 const uint kSubdivisionPlacesBuffer = 3u;  // rows' places (x in the lower 16 bits), then rows of places
-const uint kFineVerticesBuffer = 4u;       // TessellatedVertex
+const uint kSubdivisionSourcesBuffer =
+    3u;  // of a fine edge's or a corner's position and normal: see surfaces::TablePatch
+const uint kAttributeValuesBuffer = 5u;  // vec4
+const uint kFineAttributesBuffer = 4u;   // vec4 for each drawn vertex
+const uint kPackedAttributesBuffer = 7u;  // texture coordinates of each, 16 bits each
+const uint kFineVerticesBuffer = 4u;  // TessellatedVertex
 const uint kFineIndicesBuffer = 5u;
 
 // Levels of edges.

@@ -8,6 +8,8 @@
 
 namespace limen::techniques {
 
+struct MeshRecords;
+
 /// Where Subdivision Shading starts (Alexa and Boubekeur 2008; Holländer 2013, section 2.2.2): normals are
 /// found from triangles there and subdivided from there on as positions are.
 enum class NormalStart {
@@ -36,8 +38,9 @@ class TableEvaluator {
   TableEvaluator(gl::Context& context, const surfaces::SubdivisionSurface& surface, uint32_t material,
                  glm::dvec3 anchor, const TableEvaluatorSettings& settings);
 
-  /// Skins the control mesh, then the first steps: positions and normals of the refined mesh. Passes
-  /// "animate", "first_positions" and "first_normals"; the last only with `normals`.
+  /// First steps: positions and normals of the refined mesh, from the skinned control mesh. Passes
+  /// "first_positions" and "first_normals", the last only with `normals`; where normals start from the
+  /// control mesh, "animate", "cage_normals" and "first_positions".
   void runFirstSteps(frame::Frame& frame, double timeS, bool normals = true) const;
   /// Main step in compute: all drawn vertices. Pass "main".
   void runMain(frame::Frame& frame) const;
@@ -49,7 +52,9 @@ class TableEvaluator {
   uint32_t triangleCount() const { return triangleCount_; }
   const gl::Buffer& vertices() const { return *vertices_; }  ///< TessellatedVertex
   const gl::Buffer& indices() const { return *indices_; }    ///< three a triangle
-  const gl::Buffer& controls() const { return controls_; }   ///< ControlVertex
+  /// vec4 of texture coordinates and one more for each drawn vertex; null if the surface has no attributes.
+  const gl::Buffer* attributes() const { return attributes_ ? &*attributes_ : nullptr; }
+  const gl::Buffer& controls() const { return controls_; }  ///< ControlVertex
   /// Makes vertices() and indices(), which forms that draw patches do not need.
   void allocateMesh(gl::Context& context);
   /// For programs that include tables.glsl.
@@ -59,18 +64,24 @@ class TableEvaluator {
 
  private:
   void dispatch(const gl::Program& program, const char* count, uint32_t of) const;
+  void makeAttributes(gl::Context& context, const MeshRecords& records);
+  void bindPose(const gl::Program& program, double timeS) const;
 
   TableEvaluatorSettings settings_;
   surfaces::SubdivisionSurface surface_;
   glm::dvec3 anchor_;
   surfaces::TableLayout layout_;
-  uint32_t vertexCount_, triangleCount_;
+  uint32_t vertexCount_, triangleCount_, material_;
   gl::Buffer rest_, joints_, positions_, entries_, terms_, fans_, controls_;
   std::optional<gl::Buffer> cageNormals_, cageEntries_, cageFans_;
   gl::Buffer patches_, points_, tables_, places_;
-  std::optional<gl::Buffer> vertices_, indices_;
+  std::optional<gl::Buffer> vertices_, indices_, meshPatches_, meshWeights_, meshSources_, attributes_,
+      packedAttributes_;
   const gl::Program &animate_, &controlsProgram_;
   const gl::Program *normalsProgram_ = nullptr, *cageNormalsProgram_ = nullptr, *main_ = nullptr;
+  struct {
+    uint32_t inner = 0, firstBorder = 0, all = 0, tangentStride = 0;
+  } meshRows_;  ///< see MeshRecords
 };
 
 }  // namespace limen::techniques

@@ -86,8 +86,88 @@ std::vector<float> tableWeights(const surfaces::TableLayout& layout) {
   for (const surfaces::BasisTable& table : layout.tables)
     out.insert(out.end(), table.weights.begin(), table.weights.end());
   for (size_t t = 0; t < 2; ++t)
-    for (const surfaces::BasisTable& table : layout.tables)
+    for (const surfaces::BasisTable& table :
+         layout.tables)  // those of attributes alone come last and have none
       out.insert(out.end(), table.tangents[t].begin(), table.tangents[t].end());
+  return out;
+}
+
+namespace {
+
+/// Rows of tables in the order of MeshPatch; kNoRow where rows are filled up.
+constexpr uint32_t kNoRow = 0xffffffffU;
+std::vector<uint32_t> meshRows(const surfaces::TableLayout& layout, MeshRecords& out) {
+  const int n = 1 << layout.tableLevel;
+  std::map<surfaces::Place, uint32_t> rowOf;
+  for (uint32_t row = 0; row < layout.places.size(); ++row) rowOf[layout.places[row]] = row;
+  std::vector<uint32_t> rows;
+  const bool triangle = layout.corners() == 3;
+  std::vector<uint32_t> inner;
+  for (int y = 1; y < n; ++y)
+    for (int x = 1; x < (triangle ? n - y : n); ++x) inner.push_back(rowOf.at({x, y}));
+  out.innerRows = static_cast<uint32_t>(inner.size());
+  constexpr size_t kLanes = kMeshLanes;
+  out.rowsEach = inner.size() <= kLanes ? 1 : inner.size() <= 2 * kLanes ? 2 : 4;
+  for (size_t first = 0; first < inner.size(); first += kLanes * out.rowsEach)
+    for (size_t lane = 0; lane < kLanes; ++lane)
+      for (size_t r = 0; r < out.rowsEach; ++r) {
+        const size_t row = first + r * kLanes + lane;
+        rows.push_back(row < inner.size() ? inner[row] : kNoRow);
+      }
+  out.firstBorderRow = static_cast<uint32_t>(rows.size());
+  std::vector<surfaces::Place> ends = {{0, 0}, {n, 0}, {0, n}};
+  if (!triangle) ends = {{0, 0}, {n, 0}, {n, n}, {0, n}};
+  for (size_t s = 0; s < ends.size(); ++s) {
+    const surfaces::Place &from = ends[s], &to = ends[(s + 1) % ends.size()];
+    for (int i = 1; i < n; ++i)
+      rows.push_back(rowOf.at({from[0] + (to[0] - from[0]) / n * i, from[1] + (to[1] - from[1]) / n * i}));
+  }
+  for (const surfaces::Place& end : ends) rows.push_back(rowOf.at(end));
+  rows.resize((rows.size() + 3) / 4 * 4, kNoRow);
+  out.rows = static_cast<uint32_t>(rows.size());
+  return rows;
+}
+
+}  // namespace
+
+MeshRecords meshRecords(const surfaces::TableLayout& layout) {
+  MeshRecords out;
+  const std::vector<uint32_t> rows = meshRows(layout, out);
+  std::vector<uint32_t> firstWeights;
+  const auto add = [&](const std::vector<double>& weights) {
+    for (size_t first = 0; first < weights.size(); first += layout.rows())
+      for (const uint32_t row : rows)
+        out.weights.push_back(row == kNoRow ? 0.0F : static_cast<float>(weights[first + row]));
+  };
+  for (const surfaces::BasisTable& table : layout.tables) {
+    firstWeights.push_back(static_cast<uint32_t>(out.weights.size()));
+    add(table.weights);
+  }
+  out.tangentStride = static_cast<uint32_t>(out.weights.size());
+  for (size_t t = 0; t < 2; ++t) {
+    out.weights.resize((t + 1) * out.tangentStride);  // tables of attributes alone have no tangents
+    for (const surfaces::BasisTable& table : layout.tables) add(table.tangents[t]);
+  }
+  out.sources.resize(layout.fineEdges + layout.controls.size());
+  uint32_t points = 0, attributePoints = 0;
+  for (uint32_t p = 0; p < layout.patches.size(); ++p) {
+    const surfaces::TablePatch& patch = layout.patches[p];
+    const auto count = static_cast<uint32_t>(patch.controls.size());
+    out.patches.push_back({points, count, firstWeights[patch.table], 0});
+    points += count;
+    if (!patch.attributeControls.empty()) {
+      const auto values = static_cast<uint32_t>(patch.attributeControls.size());
+      out.attributePatches.push_back({attributePoints, values, firstWeights[patch.attributeTable], 0});
+      out.attributePoints.insert(out.attributePoints.end(), patch.attributeControls.begin(),
+                                 patch.attributeControls.end());
+      attributePoints += values;
+    }
+    for (uint32_t s = 0; s < layout.corners(); ++s) {
+      if (patch.writesEdge[s]) out.sources[patch.edges[s]] = {patch.edgeSources[s], 8 * p + 2 * s};
+      if (patch.writesCorner[s])
+        out.sources[layout.fineEdges + patch.controls[s]] = {patch.cornerSources[s], 4 * p + s};
+    }
+  }
   return out;
 }
 

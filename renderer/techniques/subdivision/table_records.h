@@ -27,6 +27,19 @@ struct PatchRecords {
 PatchRecords patchRecords(const surfaces::TableLayout& layout, uint32_t material);
 /// Tables in succession; those of tangents follow all of positions, then come those of the other tangents.
 std::vector<float> tableWeights(const surfaces::TableLayout& layout);
+
+/// What the main step in compute reads: see MeshPatch. Sources of fine edges, then of controls.
+struct MeshRecords {
+  std::vector<MeshPatch> patches;
+  std::vector<float> weights;
+  std::vector<glm::uvec2> sources;
+  std::vector<MeshPatch> attributePatches;  ///< of the same weights; their points are values of attributes
+  std::vector<uint32_t> attributePoints;
+  uint32_t rowsEach = 1;  ///< of an invocation, inside a patch: 1, 2 or 4
+  uint32_t innerRows = 0, firstBorderRow = 0, rows = 0;
+  uint32_t tangentStride = 0;  ///< in weights
+};
+MeshRecords meshRecords(const surfaces::TableLayout& layout);
 std::vector<uint32_t> placeRecords(const surfaces::TableLayout& layout);
 
 }  // namespace limen::techniques

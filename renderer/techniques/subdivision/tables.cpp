@@ -103,10 +103,15 @@ class SubdivisionTables : public Technique {
     const surfaces::SubdivisionSurface& surface = scene.subdivisions[0];
     evaluator_.emplace(frame.context(), surface, scene.parts[surface.part].material,
                        frame.gpuScene().anchor(), TableEvaluatorSettings{settings_.level, settings_.normals});
-    const bool compute = settings_.form == MainStep::Compute;
+    const bool compute = settings_.form == MainStep::Compute, textured = surface.attributes.has_value();
+    if (surfaces::stepsUntilSmooth(surface.cage) > 4)
+      throw Error("an edge is semi-sharp for more than 4 steps", "scene",
+                  "use a lower sharpness, or 10: sharp for ever");
+    if (textured && (!compute || settings_.adaptive()))
+      throw Error("the surface has texture coordinates", "form", "use form: compute and refinement: uniform");
     lists_ = compute && frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     picture_.emplace(frame, settings_.shading, "subdivision",
-                     lists_ ? frame::Raster::Compute : frame::Raster::Hardware);
+                     lists_ ? frame::Raster::Compute : frame::Raster::Hardware, textured);
     if (compute) {
       if (settings_.adaptive()) {
         adaptive_.emplace(frame.context(), *evaluator_, *settings_.adaptive());
@@ -117,9 +122,10 @@ class SubdivisionTables : public Technique {
         const frame::RasterCount count{evaluator_->triangleCount(), 0, 0, 0};
         count_.emplace(int64_t{sizeof count}, &count);
       }
-      drawProgram_ =
-          &frame.context().programs().get({"renderer/techniques/tessellation/compute/surface.vert.glsl",
-                                           "renderer/techniques/tessellation/surface.frag.glsl"});
+      drawProgram_ = &frame.context().programs().get(
+          {"renderer/techniques/tessellation/compute/surface.vert.glsl",
+           "renderer/techniques/tessellation/surface.frag.glsl"},
+          textured ? gl::ShaderDefines{{"TEXTURED", "1"}} : gl::ShaderDefines{});
     } else {
       prepareDraw(frame);
     }
@@ -249,7 +255,7 @@ class SubdivisionTables : public Technique {
 
 const RegisteredTechnique<SubdivisionTables> kSubdivisionTablesRegistered{
     {.name = "subdivision/tables",
-     .version = 1,
+     .version = 2,
      .summary =
          "Limit points of subdivision surfaces from tables of basis functions, the control mesh moving",
      .source = "Holländer 2013, chapter 2 (HOL-02 to HOL-08)",

@@ -8,6 +8,11 @@ flat in uint material;
 layout(location = 0) out uint id;
 layout(location = 1) out vec4 normalAndDistance;
 
+#ifdef TEXTURED
+in vec2 texturePlace;
+#include "renderer/techniques/tessellation/surface_texture.glsl"
+#endif
+
 #ifdef TRIMMED
 in vec2 trimPlace;
 flat in int trimRegion;
@@ -20,6 +25,9 @@ void main() {
   if (trimRegion >= 0 && !(textureLod(trims, vec3(trimPlace, float(trimRegion)), 0.0).x > leastLeft)) discard;
 #endif
   id = kSurfaceOfPatch | material;
+#ifdef TEXTURED
+  if (onDarkCheck(texturePlace)) id |= kSurfaceDarkCheck;
+#endif
   // The triangle decides which side is seen.
   normalAndDistance = vec4(gl_FrontFacing ? normal : -normal, distance_);
 }

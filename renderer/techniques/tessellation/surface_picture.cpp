@@ -31,7 +31,7 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
     : SurfacePicture(frame, shading, pass, frame::Raster::Hardware) {}
 
 SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading,
-                               const std::string& pass, frame::Raster raster)
+                               const std::string& pass, frame::Raster raster, bool textured)
     : shading_(shading),
       pass_(pass),
       meshProgram_(frame.context().programs().get(
@@ -52,6 +52,7 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
                                  {.ids = true, .listedVertexWords = kVertexWords, .textures = false});
     std::optional<frame::ComputeRaster> mesh;
     gl::ShaderDefines defines;
+    if (textured) defines["TEXTURED"] = "1";
     if (surface.packed()) defines["PACKED"] = "1";
     if (mesh_.triangleCount() > 0) {
       mesh.emplace(context, frame.sizePx(), frame::ComputeRasterSettings{.ids = true, .textures = false});

@@ -20,8 +20,9 @@ class SurfacePicture {
   SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading, const std::string& pass);
 
   /// With frame::Raster::Compute, for renderListed() as well.
+  /// `textured`: the last words of vertices are texture coordinates; programs for render() have TEXTURED.
   SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& shading, const std::string& pass,
-                 frame::Raster raster);
+                 frame::Raster raster, bool textured = false);
 
   /// `draw` draws with any program whose fragment shader is surface.frag.glsl.
   void render(frame::Frame& frame, const std::function<void()>& draw);

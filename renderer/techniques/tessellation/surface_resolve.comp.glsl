@@ -27,6 +27,10 @@ uniform ivec2 sizePx;
 uniform vec2 rayScale;
 uniform mat4 anchorToCamera;
 
+#ifdef TEXTURED
+#include "renderer/techniques/tessellation/surface_texture.glsl"
+#endif
+
 struct Gathered {
   float depth;  // near / distance; 0: nothing
   uint id;      // 0xffffffff: none
@@ -90,6 +94,12 @@ void main() {
   vec3 normal = weights.x * va.normal + weights.y * vb.normal + weights.z * vc.normal;
   // The triangle decides which side is seen.
   if (dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
-  imageStore(ids, pixel, uvec4(kSurfaceOfPatch | va.material));
+  uint id = kSurfaceOfPatch | va.material;
+#ifdef TEXTURED
+  if (onDarkCheck(weights.x * unpackUnorm2x16(va.rung) + weights.y * unpackUnorm2x16(vb.rung) +
+                  weights.z * unpackUnorm2x16(vc.rung)))
+    id |= kSurfaceDarkCheck;
+#endif
+  imageStore(ids, pixel, uvec4(id));
   imageStore(normals, pixel, vec4(normal, seen.depth));
 }

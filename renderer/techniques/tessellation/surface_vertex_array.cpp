@@ -12,7 +12,8 @@ SurfaceVertexArray::SurfaceVertexArray(const gl::Buffer& vertices) {
   glVertexArrayAttribFormat(id_, 0, 3, GL_FLOAT, GL_FALSE, offsetof(TessellatedVertex, position));
   glVertexArrayAttribIFormat(id_, 1, 1, GL_UNSIGNED_INT, offsetof(TessellatedVertex, material));
   glVertexArrayAttribFormat(id_, 2, 3, GL_FLOAT, GL_FALSE, offsetof(TessellatedVertex, normal));
-  for (GLuint attribute = 0; attribute < 3; ++attribute) {
+  glVertexArrayAttribIFormat(id_, 4, 1, GL_UNSIGNED_INT, offsetof(TessellatedVertex, rung));
+  for (const GLuint attribute : {0U, 1U, 2U, 4U}) {
     glVertexArrayAttribBinding(id_, attribute, 0);
     glEnableVertexArrayAttrib(id_, attribute);
   }

@@ -73,7 +73,7 @@ struct TessellatedVertex {  // std430
   vec3 position;            // relative to the anchor
   uint material;
   vec3 normal;  // unit
-  uint rung;    // kRung...
+  uint rung;    // kRung...; of a textured surface, texture coordinates, 16 bits each
 };
 #ifdef __cplusplus
 static_assert(sizeof(TessellatedVertex) == 32 && offsetof(TessellatedVertex, normal) == 16);
@@ -150,6 +150,7 @@ const uint kResolveMeshIdsBuffer = 6u;
 const uint kResolveMeshQueueBuffer = 7u;
 const uint kSurfacePictureImage = 0u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
+const uint kSurfaceDarkCheck = 0x40000000u;  // with the former: on a dark check of the surface's texture
 
 #ifdef __cplusplus
 }  // namespace limen::techniques

@@ -126,6 +126,52 @@ TEST_F(Antialiasing, AdaptiveIsFullAtSilhouettesForHalfTheSamples) {
   }
 }
 
+// Checks on a square across the view, 2.6 and 1.3 pixels a check: every pixel is a box on it, over which the
+// filter is exact. The reference is a mean of 64 x 64 jittered rays: of 64 cells a side at most 4 x 64 have a
+// check's edge in them, each a variance of a quarter or less, of checks 0.8 apart: 0.8 * sqrt(256 / 4) / 4096
+// = 0.0016 a deviation, and of 432 pixels one may be 4 away. Point samples are off by half of 0.8 and more
+// somewhere.
+TEST_F(Antialiasing, GradientsAverageChecksOverThePixel) {
+  for (const double pitch : {0.11, 0.055}) {
+    scene::Scene scene;
+    scene.mesh.positions = {{-2.0, -2.0, 0.0}, {2.0, -2.0, 0.0}, {2.0, 2.0, 0.0}, {-2.0, 2.0, 0.0}};
+    scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.parts = {{"square", 0, 2, 0, false}};
+    scene::Material material{"checker", glm::vec3(0.5F)};
+    material.pattern = {scene::Pattern::Kind::Checker, pitch, 0.8, 1, {0.013, 0.021, -0.25}};
+    scene.materials = {material};
+    scene::setStillCamera(scene, {{0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 41.1});
+    constexpr glm::ivec2 kSize(24, 18);
+    const auto picture = [&](const char* technique, Given given) {
+      given = white(std::move(given));
+      return render(scene, technique, given, kSize).product;
+    };
+    const Image reference = picture("antialiasing/ray_traced", {{"places", int64_t{4096}}});
+    const auto largest = [&](const Image& image) {
+      double out = 0.0;
+      for (size_t i = 0; i < image.data.size(); ++i)
+        out = std::max(out, std::abs(double(image.data[i]) - reference.data[i]));
+      return out;
+    };
+    for (const char* kind : {"plane", "neighbours"})
+      EXPECT_LT(
+          largest(picture("antialiasing/full", {{"window", int64_t{1}}, {"gradients", std::string(kind)}})),
+          0.0064)
+          << kind << ' ' << pitch;
+    EXPECT_GT(largest(picture("antialiasing/full", {{"window", int64_t{1}}})), 0.2) << pitch;
+    // One sample of sixteen is widened to the whole pixel; it stands in another place of it, by 3/8 of a
+    // pixel or less.
+    EXPECT_LT(meanDifference(picture("antialiasing/adaptive", {{"geometry", std::string("none")},
+                                                               {"lightness", std::string("none")},
+                                                               {"gradients", std::string("plane")}}),
+                             reference),
+              meanDifference(picture("antialiasing/adaptive",
+                                     {{"geometry", std::string("none")}, {"lightness", std::string("none")}}),
+                             reference))
+        << pitch;
+  }
+}
+
 // A plane across the view, 2^20 m away, has one depth: no variance. Depths are known to 1/16 m there and so
 // the variance in the stable form to 1/256 m^2, far below the half that asks for a sample; in the printed
 // form it is a difference of numbers near 2^40 m^2, of which floats know 2^17 m^2: above 0 for some

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/base/error.h"
-#include "renderer/surfaces/subdivision_stencils.h"
+#include "renderer/surfaces/table_layout.h"
 #include "tests/renderer/subdivision/meshes.h"
 
 namespace limen::surfaces {
@@ -64,7 +64,9 @@ TEST(Manifold, TheErrorSaysWhereAndWhy) {
   EXPECT_THROW(ruleMesh(openSheet(2, true), SubdivisionScheme::Butterfly), Error);
   PolygonMesh semiSharp = bipyramid(5);
   semiSharp.sharpness[edgeKey(0, 2)] = 1.5;
-  EXPECT_THROW(ruleMesh(semiSharp, SubdivisionScheme::Loop), Error);
+  EXPECT_EQ(stepsUntilSmooth(semiSharp), 2);
+  EXPECT_THROW(tableLayout(semiSharp, SubdivisionScheme::Loop, 1, 1), Error);
+  EXPECT_THROW(ruleMesh(semiSharp, SubdivisionScheme::Butterfly), Error);
 }
 
 }  // namespace

@@ -229,9 +229,16 @@ TEST(OpenSubdiv, CreasesAndBoundariesAreTheSame) {
 /// that of the control mesh refined once, by OpenSubdiv's rules for the rest of the way.
 void expectTables(const PolygonMesh& mesh, SubdivisionScheme scheme) {
   const bool quads = scheme == SubdivisionScheme::CatmullClark;
-  const PolygonMesh once = quads ? catmullClark(mesh) : loop(mesh);
+  const int steps = std::max(1, stepsUntilSmooth(mesh));
+  const PolygonMesh once = quads ? catmullClark(mesh, steps) : loop(mesh, steps);
   const OpenSubdivSurface theirs(once, quads ? osd::Sdc::SCHEME_CATMARK : osd::Sdc::SCHEME_LOOP);
-  const TableLayout layout = tableLayout(mesh, scheme, 4);
+  const TableLayout layout = tableLayout(mesh, scheme, 4, steps);
+  // The first steps, by weights; CreasesAndBoundariesAreTheSame compares their points with OpenSubdiv's.
+  for (size_t v = 0; v < once.points.size(); ++v) {
+    glm::dvec3 sum(0.0);
+    for (const auto& [vertex, weight] : layout.entries[v]) sum += weight * mesh.points[vertex];
+    EXPECT_LT(glm::length(sum - once.points[v]), 1e-12);
+  }
   std::map<std::vector<uint32_t>, std::pair<uint32_t, size_t>> faces;
   for (uint32_t f = 0; f < once.faces.size(); ++f)
     for (size_t r = 0; r < once.faces[f].size(); ++r) {
@@ -271,6 +278,10 @@ TEST(OpenSubdiv, TablesHaveTheSameSurface) {
   expectTables(sheet(true, kInfinitelySharp), SubdivisionScheme::Loop);
   expectTables(scene::doubleTorusCage(), SubdivisionScheme::CatmullClark);
   expectTables(sheet(false, kInfinitelySharp), SubdivisionScheme::CatmullClark);
+  for (const double sharpness : {0.5, 1.0, 2.3}) {
+    expectTables(sheet(true, sharpness), SubdivisionScheme::Loop);
+    expectTables(sheet(false, sharpness), SubdivisionScheme::CatmullClark);
+  }
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class Adaptive : public Technique {
   explicit Adaptive(const AdaptiveSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    view_.emplace(frame, settings_.window, settings_.samples);
+    view_.emplace(frame, settings_.window, settings_.samples, settings_.gradients);
     first_ = &shader(frame, SampleForm::First);
     count_ =
         &frame.context().programs().compute(std::string(kFolder) + "count_samples.comp.glsl", countDefines());

@@ -106,6 +106,7 @@ const SettingsTable<AdaptiveSettings>& AdaptiveSettings::table() {
        "pixels sorted "
        "by it, or from a list in each tile",
        "Holländer 2013, section 4.3.5"},
+      gradientsBinding(&S::gradients),
       included(&S::samples)};
   return kTable;
 }

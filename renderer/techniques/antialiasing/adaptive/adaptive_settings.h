@@ -91,6 +91,7 @@ struct AdaptiveSettings {
   bool powersOfTwo = false;
   int block = 1;
   SampleExecution execution = SampleExecution::Sorted;
+  SampleGradients gradients;
   SampleShading samples;
   static const SettingsTable<AdaptiveSettings>& table();
 };

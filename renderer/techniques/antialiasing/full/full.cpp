@@ -15,6 +15,7 @@ namespace {
 
 struct FullSamplingSettings {
   int window = 4;
+  SampleGradients gradients;
   SampleShading samples;
   static const SettingsTable<FullSamplingSettings>& table() {
     using S = FullSamplingSettings;
@@ -24,6 +25,7 @@ struct FullSamplingSettings {
                                              "",
                                              "Samples per pixel along each axis",
                                              "Holländer 2013, section 4.3.1"},
+                                            gradientsBinding(&S::gradients),
                                             included(&S::samples)};
     return kTable;
   }
@@ -35,7 +37,7 @@ class FullSampling : public Technique {
   explicit FullSampling(const FullSamplingSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    view_.emplace(frame, settings_.window, settings_.samples);
+    view_.emplace(frame, settings_.window, settings_.samples, settings_.gradients);
     gl::ShaderDefines defines = view_->defines();
     defineEnum(defines, "FORM", SampleForm::Full);
     program_ = &frame.context().programs().compute("renderer/techniques/antialiasing/shade_samples.comp.glsl",
@@ -82,7 +84,7 @@ const RegisteredTechnique<FullSampling> kOneSample{
      .source = "Holländer 2013, section 4.3.6 (HOL-55)",
      .product = ProductKind::Colour,
      .counters = sampleCostQuantities()},
-    FullSamplingSettings{.window = 1, .samples = {}}};
+    FullSamplingSettings{.window = 1, .gradients = {}, .samples = {}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -11,6 +11,10 @@ layout(location = 3) in vec3 trimOfVertex;
 out vec2 trimPlace;
 flat out int trimRegion;
 #endif
+#ifdef TEXTURED
+layout(location = 4) in uint lastWordOfVertex;
+out vec2 texturePlace;
+#endif
 
 void main() {
   precise const vec4 clip = anchorToClip * vec4(position, 1.0);
@@ -18,6 +22,9 @@ void main() {
   normal = normalOfVertex;
   distance_ = clip.w;
   material = materialOfVertex;
+#ifdef TEXTURED
+  texturePlace = unpackUnorm2x16(lastWordOfVertex);
+#endif
 #ifdef TRIMMED
   trimPlace = trimOfVertex.xy;
   trimRegion = int(trimOfVertex.z);
