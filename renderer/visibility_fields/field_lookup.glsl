@@ -6,12 +6,22 @@ layout(std430, binding = kFieldObjectsBuffer) readonly buffer FieldObjects { Fie
 uniform uint fieldObjectCount;
 
 const float kFieldNothing = -1.0;
+uint fieldLookUps = 0u;  // spheres that rays of this invocation met
 
 void fieldOffer(uint firstMap, int index, vec3 direction, inout float most, inout int best) {
   const float cosine = dot(fieldMaps[firstMap + uint(index)].xyz, direction);
   if (cosine > most) {
     most = cosine;
     best = index;
+  }
+}
+
+void fieldOfferCorner(uint firstMap, ivec2 at, vec3 folded, inout float most, inout ivec2 found) {
+  if (at.x + at.y > FIELD_SEGMENTS) return;
+  const float cosine = dot(fieldMaps[firstMap + uint(fieldLatticeIndex(at.x, at.y, false, FIELD_SEGMENTS))].xyz, folded);
+  if (cosine > most) {
+    most = cosine;
+    found = at;
   }
 }
 
@@ -23,17 +33,11 @@ int fieldNearestPosition(uint firstMap, vec3 d) {
 #if FIELD_POSITION_FORM == 0
   const ivec2 cell = ivec2(floor(fieldLatticePlace(d, FIELD_SEGMENTS)));
   const vec3 folded = abs(d);
-  ivec2 found = ivec2(0);
-  for (int corner = 0; corner < 4; ++corner) {
-    const ivec2 at = cell + ivec2(corner & 1, corner >> 1);
-    const int before = best;
-    if (at.x + at.y > FIELD_SEGMENTS) continue;
-    const float cosine = dot(fieldMaps[firstMap + uint(fieldLatticeIndex(at.x, at.y, false, FIELD_SEGMENTS))].xyz, folded);
-    if (cosine > most) {
-      most = cosine;
-      found = at;
-    }
-  }
+  ivec2 found = cell;
+  fieldOfferCorner(firstMap, cell, folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(1, 0), folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(0, 1), folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(1, 1), folded, most, found);
   best = fieldLatticeIndex(d.x < 0.0 ? -found.x : found.x, d.y < 0.0 ? -found.y : found.y, d.z < 0.0, FIELD_SEGMENTS);
 #elif FIELD_POSITION_FORM == 1
   const int rows = FIELD_SEGMENTS;
@@ -100,6 +104,7 @@ float fieldDistance(uint index, vec3 origin, vec3 direction, float slack) {
   const FieldObject object = fieldObjects[index];
   const FieldPassage passage = fieldPassage(object, origin, direction);
   if (!(passage.leave > max(passage.entry, 0.0))) return kFieldNothing;
+  ++fieldLookUps;
   const vec3 way = fieldToObject(object, direction);
   const vec3 middle = fieldToObject(object, passage.middle);
   const bool inside = passage.entry < 0.0;

@@ -18,7 +18,8 @@ int segmentsFor(PositionForm form, int positions) {
     case PositionForm::Box:
       return static_cast<int>(std::lround(std::sqrt(positions / 6.0)));
   }
-  return static_cast<int>(std::lround(std::sqrt(positions / 4.0)));
+  // positions = 2 (2 k^2 + 2 k + 1), so that k < sqrt(positions / 4) < k + 1.
+  return static_cast<int>(std::sqrt(positions / 4.0));
 }
 
 /// The point whose angles asin(x), asin(y), asin(z) are as the coordinates of `ratios`: they are ratios times

@@ -94,8 +94,6 @@ double unevenness(const PositionMap& map, int tests) {
 
 // Closed forms of the areas for many positions. Grid: on the equator pi / 2 of the mean (rows and columns pi
 // / n apart, 4 pi / (2 n^2) on average). Box: in the middle of a face 4 / m^2 against 4 pi / (6 m^2), 6 / pi.
-// The lattice is at most 1.25: in the middle of an octant, where by symmetry angles grow alike, an area of i
-// and j is (2 / 3^(1/2))... bounded here by the box.
 TEST(PositionMap, LatticeIsMoreEvenThanGridAndBox) {
   constexpr int kTests = 2000000;  // 1835 for each position: 5 standard deviations are 12 %
   const double lattice = unevenness(PositionMap(PositionForm::Lattice, 1090), kTests);
