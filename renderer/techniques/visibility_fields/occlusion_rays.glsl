@@ -1,47 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of a pixel, the same for fields and for tracers, and what their distances mean. Set up by OcclusionRays::configure().
-#include "renderer/ray_tracing/random_place.glsl"
-#include "renderer/techniques/visibility_fields/occlusion_pass_bindings.h"
-#include "renderer/visibility_fields/field_bindings.h"
-#include "renderer/visibility_fields/map_functions.h"
+// The rays of a pixel for ambient occlusion, the same for fields and for tracers, and what their distances mean. Set up by
+// OcclusionRays::configure().
+#include "renderer/techniques/visibility_fields/field_receiver.glsl"
 
-layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
-layout(binding = kFieldPositionUnit) uniform sampler2D positions;
-layout(binding = kFieldNormalUnit) uniform sampler2D normals;
-layout(binding = kFieldIdsUnit) uniform usampler2D triangleIds;
-layout(std430, binding = kFieldObjectOfBuffer) readonly buffer ObjectOf { uint objectOf[]; };
-uniform ivec2 sizePx;
-uniform int raySide, turned, falloff, selfOcclusion;
+uniform int raySide, turned, falloff;
 uniform uint seed;
 uniform float falloffRadius;
-uniform vec3 eyePosition;  // relative to the anchor
 
-struct OcclusionPoint {
-  vec3 origin, normal, tangent, bitangent;
-  uint triangle, object;
+// Axes across the receiver's normal, turned from pixel to pixel if so chosen.
+struct OcclusionFrame {
+  vec3 x, y, z;
 };
-
-// False: the pixel shows no surface.
-bool occlusionPoint(ivec2 pixel, out OcclusionPoint point) {
-  point.triangle = texelFetch(triangleIds, pixel, 0).x;
-  if (point.triangle == 0xffffffffu) return false;
-  point.object = objectOf[point.triangle];
-  point.normal = texelFetch(normals, pixel, 0).xyz;
-  // Clear of neighbours in the same plane.
-  const vec3 seen = texelFetch(positions, pixel, 0).xyz;
-  point.origin = seen + 1e-5 * distance(seen, eyePosition) * point.normal;
-  const vec3 x = fieldTangent(point.normal), y = fieldBitangent(point.normal);
-  const float angle =
-      turned == 0 ? 0.0 : 2.0 * kFieldPi * randomPlace(uvec3(uint(pixel.y * sizePx.x + pixel.x), 0u, seed)).x;
-  point.tangent = cos(angle) * x + sin(angle) * y;
-  point.bitangent = cos(angle) * y - sin(angle) * x;
-  return true;
+OcclusionFrame occlusionFrame(ivec2 pixel, FieldReceiver receiver) {
+  const vec3 x = fieldTangent(receiver.normal), y = fieldBitangent(receiver.normal);
+  const float angle = turned == 0 ? 0.0 : 2.0 * kFieldPi * pixelPlace(pixel, 0u, seed).x;
+  return OcclusionFrame(cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x, receiver.normal);
 }
 
 // Spread by the cosine.
-vec3 occlusionDirection(OcclusionPoint point, ivec2 cell) {
+vec3 occlusionDirection(OcclusionFrame frame, ivec2 cell) {
   const vec3 local = fieldDirection((vec2(cell) + 0.5) / float(raySide), kFieldConcentric);
-  return normalize(local.x * point.tangent + local.y * point.bitangent + local.z * point.normal);
+  return normalize(local.x * frame.x + local.y * frame.y + local.z * frame.z);
 }
 
 // Share of light that a surface at this distance lets through.

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "experiments/base/enum_names.h"
-#include "experiments/base/settings_table.h"
-#include "renderer/frame/frame.h"
-#include "renderer/gl/program.h"
-#include "renderer/visibility_fields/rigid_objects.h"
+#include "renderer/techniques/visibility_fields/field_reader.h"
 
 namespace limen::techniques {
 
@@ -19,23 +13,15 @@ constexpr EnumNames<Falloff, 3> enumNames(Falloff) {
       {{{Falloff::Binary, "binary"}, {Falloff::Linear, "linear"}, {Falloff::Exponential, "exponential"}}}};
 }
 
-/// The rays of a pixel and what their distances mean. A field and the tracer that it is compared with take
-/// the same.
+/// Rays over the half space of a receiver, by the cosine, and what their distances mean.
 struct OcclusionRays {
-  int64_t rays = 64;
-  bool turned = false;
-  int64_t seed = 1;
+  ReceiverRays receiver;
   Falloff falloff = Falloff::Binary;
   double radius = 0.1;
-  bool selfOcclusion = true;
-  visibility_fields::ObjectForm objects = visibility_fields::ObjectForm::Parts;
   static const SettingsTable<OcclusionRays>& table();
-  /// Throws Error unless `rays` is a square number.
-  void check() const;
-
-  int side() const;
-  /// Uniforms of occlusion_rays.glsl.
-  void configure(const gl::Program& program, const frame::Frame& frame) const;
+  static void makeInputs(frame::Frame& frame) { ReceiverRays::makeInputs(frame); }
+  /// For occlusion_rays.glsl; after makeInputs().
+  void configure(const gl::Program& program, frame::Frame& frame) const;
 };
 
 }  // namespace limen::techniques

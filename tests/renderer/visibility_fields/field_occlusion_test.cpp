@@ -121,9 +121,10 @@ TEST_F(FieldOcclusionTest, CombinesObjectsAsItSays) {
 }
 
 // At a wall that is part of the same object: beside a wall of height h at the distance d (1 - d / sqrt(d^2 +
-// h^2)) / 2 is hidden. The floor, 4 wide, and the wall lie in a sphere of radius 2.9; positions are 0.04 of
-// it apart, 0.11, and so is the slack, so that only points farther from the wall than that and what its top
-// moves by, 0.11 of 1, are known.
+// h^2)) / 2 is hidden. Floor and wall lie in a sphere of radius 2.3; a position is up to 0.04 of it away and
+// a texel 4 / (pi 64) at up to 4.6, which moves the wall's top by up to 0.18 and what it hides by up to 0.15
+// of that, 0.027. The floor's own share is as much as a convex object may hide of itself, 0.03 below. Single
+// pixels may err twice as much as the mean, as positions are the same for whole areas.
 TEST_F(FieldOcclusionTest, AnObjectOccludesItself) {
   scene::Scene scene;
   scene::Mesh corner = scene::box({0.0, -0.1, -2.0}, {2.0, 0.0, 2.0});
@@ -145,14 +146,14 @@ TEST_F(FieldOcclusionTest, AnObjectOccludesItself) {
       // The wall's ends, 2 away to both sides, leave open less than what a wall of its height would hide
       // there: 0.053, at most half of it towards the wall. Rays as above: outline below 2 long, 60 cells.
       ASSERT_NEAR(traced.at(x, y), 1.0 - hidden, 0.012 + 0.05) << d;
-      ASSERT_NEAR(found.at(x, y), traced.at(x, y), 0.05) << d;
+      ASSERT_NEAR(found.at(x, y), traced.at(x, y), 0.12) << d;
       ASSERT_EQ(without.at(x, y), 1.0F);
     }
+  EXPECT_LT(meanDifference(found, traced), 0.06);
 }
 
-// A box is convex, and nothing of it hides another part: what is dark is acne. A position off by 0.04 radii
-// moves a face seen at grazing angles by 0.04 / cos; with a slack of one spacing those beyond 60 degrees may
-// err, sin^2 60 = 3/4 of cosine-weighted rays do not. Without slack half of all do.
+// A box is convex, and nothing else is there: what is dark is acne. More slack cannot add to it, and from one
+// spacing on it is what an eye does not see in a smooth picture, 3 %.
 TEST_F(FieldOcclusionTest, SlackKeepsAConvexObjectFromOccludingItself) {
   scene::Scene scene;
   scene::addPart(scene, "box", scene::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), glm::vec3(0.5F));

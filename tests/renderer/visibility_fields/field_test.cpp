@@ -282,8 +282,8 @@ TEST_F(Field, MovesWithItsObject) {
   int apart = 0, hits = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     hits += before[i] >= 0.0F;
-    apart +=
-        (before[i] < 0.0F) != (after[i] < 0.0F) || std::abs(after[i] - kScale * before[i]) > 1e-3 * kScale;
+    apart += before[i] < 0.0F ? after[i] >= 0.0F
+                              : after[i] < 0.0F || std::abs(after[i] - kScale * before[i]) > 1e-3 * kScale;
   }
   EXPECT_GT(hits, 5000);
   // Rounding, 300 2^-24 / 8 of the object's size in the origin, moves a ray into the next texel or cell if it
