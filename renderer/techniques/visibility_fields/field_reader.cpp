@@ -65,7 +65,8 @@ void ReceiverRays::check() const {
 }
 
 void ReceiverRays::makeInputs(frame::Frame& frame) {
-  channelOf(frame, frame::Channel::Position), channelOf(frame, frame::Channel::Normal);
+  channelOf(frame, frame::Channel::Position);
+  channelOf(frame, frame::Channel::Normal);
   frame.get<frame::TriangleIds>();
 }
 
@@ -122,7 +123,6 @@ void FieldReader::bind(const gl::Program& program) const {
 gl::Buffer FieldReader::emptyCounts() {
   gl::Buffer counts(int64_t{4} * kFieldCountSlots, nullptr);
   counts.clearUint(0);
-  counts.bindStorage(kFieldCountsBuffer);
   return counts;
 }
 

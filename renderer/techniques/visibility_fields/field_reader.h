@@ -53,11 +53,12 @@ class FieldReader {
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
 
-  /// Look-ups that `run` makes with a program compiled with COUNT, and what the fields take.
+  /// Look-ups that run(counts) makes with a program compiled with COUNT and `counts` bound to
+  /// kFieldCountsBuffer, and what the fields take.
   template <class Run>
   std::vector<Counter> count(frame::Frame& frame, const Run& run) const {
     const gl::Buffer counts = emptyCounts();
-    run();
+    run(counts);
     return countersOf(counts, frame);
   }
   static std::vector<Quantity> quantities();

@@ -32,17 +32,18 @@ class FieldTechnique : public Technique {
     picture_.emplace(S::kFormat, frame.sizePx());
     frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld());
   }
-  void render(frame::Frame& frame) override { run(frame, *program_); }
+  void render(frame::Frame& frame) override { run(frame, *program_, nullptr); }
   const gl::Texture& product() const override { return *picture_; }
   std::vector<Counter> count(frame::Frame& frame) override {
-    return reader_.count(frame, [&] { run(frame, *counting_); });
+    return reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
   }
 
  private:
-  void run(frame::Frame& frame, const gl::Program& program) {
+  void run(frame::Frame& frame, const gl::Program& program, const gl::Buffer* counts) {
     settings_.rays.makeInputs(frame);
     const auto scope = frame.passes().open(S::kPass);
     reader_.bind(program);
+    if (counts) counts->bindStorage(kFieldCountsBuffer);
     settings_.rays.configure(program, frame);
     picture_->bindImage(kFieldOutImage, gl::Access::Write);
     program.dispatch(frame.sizePx());

@@ -45,8 +45,8 @@ class FieldShadowTest : public TechniqueTest {
   /// Share of the disc about the light, across the line of sight, that a point sees: 128 rings of 128 points
   /// of equal area.
   static double seenShare(glm::dvec3 point) {
-    const glm::dvec3 z = glm::normalize(kLight - point), x = glm::normalize(glm::cross(z, {0.3, 0.1, 0.9})),
-                     y = glm::cross(z, x);
+    const glm::dvec3 z = glm::normalize(kLight - point),
+                     x = glm::normalize(glm::cross(z, glm::dvec3(0.3, 0.1, 0.9))), y = glm::cross(z, x);
     int seen = 0;
     for (int ring = 0; ring < 128; ++ring)
       for (int i = 0; i < 128; ++i) {
