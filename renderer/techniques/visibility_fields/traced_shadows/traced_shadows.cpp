@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rays of visibility_fields/soft_shadows, traced against the triangles of the same objects instead: exact
-// for those rays. Source: Gaitatzes 2012, section 4.7.2 (MT-01, BL-02).
+// for those rays. Source: Gaitatzes 2012, section 4.7.2 (MT-01; BL-02 without its grid).
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/light_rays.h"
 
@@ -24,7 +24,7 @@ const RegisteredTechnique<TracedTechnique<ObjectShadowSettings>> kObjectShadows{
     {.name = "visibility_fields/traced_shadows",
      .version = 1,
      .summary = "Soft shadows by the same rays as from visibility fields, traced on the GPU",
-     .source = "Gaitatzes 2012, section 4.7.2 (MT-01, BL-02)",
+     .source = "Gaitatzes 2012, section 4.7.2 (MT-01; BL-02 without its grid)",
      .product = ProductKind::Visibility,
      .needs = {"casters", "rectangular_light"},
      .reference = true,
