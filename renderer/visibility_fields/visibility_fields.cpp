@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <string>
 
 #include "experiments/base/error.h"
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/field_words.h"
+#include "renderer/visibility_fields/run_lengths.h"
 
 namespace limen::visibility_fields {
 namespace {
@@ -28,6 +30,11 @@ int sliceSideFor(int64_t maps, glm::ivec2 tile) {
   return side;
 }
 
+/// In order of the texels: words are little-endian on every machine that has OpenGL 4.5.
+std::span<const uint8_t> bytesOf(const std::vector<uint32_t>& words) {
+  return {reinterpret_cast<const uint8_t*>(words.data()), words.size() * sizeof(uint32_t)};
+}
+
 std::vector<glm::vec4> repeated(const std::vector<glm::vec3>& points, size_t times) {
   std::vector<glm::vec4> out;
   out.reserve(points.size() * times);
@@ -39,7 +46,7 @@ std::vector<glm::vec4> repeated(const std::vector<glm::vec3>& points, size_t tim
 }  // namespace
 
 VisibilityFields::VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects,
-                                   const FieldForm& form)
+                                   const FieldForm& form, int tolerance)
     : form_(form),
       positionMap_(form.positionMap, form.positions),
       objectCount_(static_cast<uint32_t>(objects.size())),
@@ -54,6 +61,7 @@ VisibilityFields::VisibilityFields(gl::Context& context, const std::vector<Rigid
         "directions", "store fewer positions, directions or bits");
   words_.emplace(gl::Format::R32UI, glm::ivec2(sliceSide_), 1, static_cast<int>(slices));
   for (uint32_t i = 0; i < objectCount_; ++i) make(context, objects[i], i);
+  if (tolerance > 0 && form_.bits == 8) lengthen(tolerance);
   std::vector<Pose> poses;
   for (const RigidObject& object : objects) poses.push_back(poseOf(object));
   place(poses, glm::dvec3(0.0));
@@ -77,8 +85,8 @@ void VisibilityFields::make(gl::Context& context, const RigidObject& object, uin
   program.set("fieldSliceSide", sliceSide_);
   program.set("firstMap", firstMap);
   program.dispatch({wordsPerMap, mapsPerObject()}, {kFieldMakeGroup, 1});
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                  GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                  GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   if (sums) {
     const gl::Program& mean =
         context.programs().compute("renderer/visibility_fields/mean_distances.comp.glsl");
@@ -127,6 +135,37 @@ int64_t VisibilityFields::bytes() const {
 }
 
 int64_t VisibilityFields::bytesHeld() const { return words_->bytes() + maps_.bytes() + objects_.bytes(); }
+
+int64_t VisibilityFields::runLengthBytes() const {
+  int64_t bytes = 0;
+  for (uint32_t object = 0; object < objectCount_; ++object) {
+    const std::vector<uint32_t> words = readWords(object);
+    bytes += static_cast<int64_t>(encodeRuns(bytesOf(words)).size());
+  }
+  return bytes;
+}
+
+void VisibilityFields::lengthen(int tolerance) const {
+  const glm::ivec2 tile = tileOf(form_);
+  const auto side = static_cast<size_t>(sliceSide_);
+  const auto slices = static_cast<size_t>(words_->bytes()) / (sizeof(uint32_t) * side * side);
+  std::vector<std::vector<uint32_t>> texels(slices, std::vector<uint32_t>(side * side));
+  for (uint32_t object = 0; object < objectCount_; ++object) {
+    std::vector<uint32_t> words = readWords(object);
+    lengthenRuns({reinterpret_cast<uint8_t*>(words.data()), words.size() * sizeof(uint32_t)}, tolerance,
+                 static_cast<uint8_t>(fieldMissCode(8)));
+    size_t next = 0;
+    for (int map = 0; map < mapsPerObject(); ++map)
+      for (int y = 0; y < tile.y; ++y)
+        for (int x = 0; x < tile.x; ++x) {
+          const glm::ivec3 at =
+              fieldWordPlace(static_cast<int>(object) * mapsPerObject() + map, {x, y}, tile, sliceSide_);
+          texels[static_cast<size_t>(at.z)][static_cast<size_t>(at.y) * side + static_cast<size_t>(at.x)] =
+              words[next++];
+        }
+  }
+  for (size_t slice = 0; slice < slices; ++slice) words_->writeUint(texels[slice], static_cast<int>(slice));
+}
 
 std::vector<uint32_t> VisibilityFields::readWords(uint32_t object) const {
   const glm::ivec2 tile = tileOf(form_);

@@ -25,8 +25,10 @@ struct Pose {
 /// distances to its surface. Source: Gaitatzes 2012, section 4.4.
 class VisibilityFields {
  public:
-  /// Makes the fields in compute. Throws Error if the device cannot hold them.
-  VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects, const FieldForm& form);
+  /// Makes the fields in compute. `tolerance`: codes of 8 bits may change by as much, so that runs of equal
+  /// ones are longer; 0: none does. Throws Error if the device cannot hold them.
+  VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects, const FieldForm& form,
+                   int tolerance = 0);
 
   /// Where objects stand, relative to `anchor`; one pose an object. They stand where they were made until it
   /// is called, relative to the origin.
@@ -43,6 +45,8 @@ class VisibilityFields {
   int64_t rayCount() const;  ///< traced to make the fields, unused texels included
   int64_t bytes() const;     ///< of the words themselves, unused parts of slices left out
   int64_t bytesHeld() const;
+  /// Bytes of all words as run lengths (run_lengths.h); waits for the GPU.
+  int64_t runLengthBytes() const;
 
   /// The words of an object's map; waits for the GPU. Row by row, FieldForm::wordsPerRow() each.
   std::vector<uint32_t> readWords(uint32_t object) const;
@@ -52,6 +56,7 @@ class VisibilityFields {
 
  private:
   void make(gl::Context& context, const RigidObject& object, uint32_t index) const;
+  void lengthen(int tolerance) const;
   int mapsPerObject() const { return static_cast<int>(positionMap_.points().size()); }
 
   FieldForm form_;

@@ -84,16 +84,29 @@ void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) co
 
 const SettingsTable<FieldReading>& FieldReading::table() {
   using S = FieldReading;
-  static const SettingsTable<S> kTable = {included(&S::form),
-                                          {&S::slack,
-                                           "slack",
-                                           {0.0, 20.0},
-                                           "spacings",
-                                           "From inside an object's sphere: by how much a blocker must lie "
-                                           "before the origin so that it is not the "
-                                           "surface that the ray starts on, in spacings of the field's rays",
-                                           "Gaitatzes 2012, section 4.4.2 (without a value)"}};
+  static const SettingsTable<S> kTable = {
+      included(&S::form),
+      {&S::slack,
+       "slack",
+       {0.0, 20.0},
+       "spacings",
+       "From inside an object's sphere: by how much a blocker must lie "
+       "before the origin so that it is not the "
+       "surface that the ray starts on, in spacings of the field's rays",
+       "Gaitatzes 2012, section 4.4.2 (without a value)"},
+      {&S::tolerance,
+       "tolerance",
+       {0, 64},
+       "codes",
+       "By how much codes of 8 bits may change so that runs of equal ones are longer: lossy compression",
+       "Gaitatzes 2012, section 4.8 (suggested)"}};
   return kTable;
+}
+
+void FieldReading::check() const {
+  if (tolerance > 0 && form.bits != 8)
+    throw Error("'tolerance' is for codes of 8 bits; 'bits' is " + std::to_string(form.bits), "tolerance",
+                "leave out 'tolerance', or give bits: 8");
 }
 
 void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays) {
@@ -103,7 +116,7 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays) {
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  fields_.emplace(frame.context(), objects.objects, settings_.form);
+  fields_.emplace(frame.context(), objects.objects, settings_.form, settings_.tolerance);
   objectOf_.emplace(objects.objectOf);
   std::vector<vf::Pose> poses;
   for (const vf::RigidObject& object : objects.objects) poses.push_back(vf::VisibilityFields::poseOf(object));
@@ -132,6 +145,7 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
   const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
   return {{"field_lookups_per_px", std::accumulate(each.begin(), each.end(), 0.0) / pixels},
           {"field_mib", double(fields_->bytes()) / (1 << 20)},
+          {"field_run_length_mib", double(fields_->runLengthBytes()) / (1 << 20)},
           {"field_rays", double(fields_->rayCount())},
           {"field_objects", double(fields_->objectCount())}};
 }
@@ -140,6 +154,8 @@ std::vector<Quantity> FieldReader::quantities() {
   return {{"field_lookups_per_px", "Look-ups in fields, per pixel", "1/px", Direction::LowerIsBetter,
            "Gaitatzes 2012, section 4.7.1"},
           {"field_mib", "Size of the fields", "MiB", Direction::LowerIsBetter, "Gaitatzes 2012, Fig. 42"},
+          {"field_run_length_mib", "Size of the fields as run lengths", "MiB", Direction::LowerIsBetter,
+           "Gaitatzes 2012, section 4.8"},
           {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
            "Gaitatzes 2012, section 4.4.1"},
           {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"}};

@@ -40,7 +40,10 @@ struct ReceiverRays {
 struct FieldReading {
   visibility_fields::FieldForm form;
   double slack = 1.0;
+  int tolerance = 0;
   static const SettingsTable<FieldReading>& table();
+  /// Throws Error if there is a tolerance for codes of other than 8 bits.
+  void check() const;
 };
 
 /// The fields of a frame's scene for shaders that include object_lookup.glsl.

@@ -291,6 +291,23 @@ TEST_F(Field, MovesWithItsObject) {
   EXPECT_LT(double(apart) / double(rays.size()), 2e-3);
 }
 
+// Lossy compression changes codes by its tolerance at most and no miss, and each word comes back to its own
+// place.
+TEST_F(Field, ToleranceBoundsWhatCompressionChanges) {
+  const std::vector<RigidObject> objects = {objectOf(coneAndBox()),
+                                            objectOf(scene::box({0, 0, 0}, {1, 2, 3}))};
+  const FieldForm form{PositionForm::Lattice, 290, DirectionForm::Concentric, 16, 8};
+  const VisibilityFields exact(context(), objects, form), lossy(context(), objects, form, 4);
+  EXPECT_LT(double(lossy.runLengthBytes()), 0.9 * double(exact.runLengthBytes()));
+  for (uint32_t object = 0; object < 2; ++object) {
+    const std::vector<float> before = exact.readShares(object), after = lossy.readShares(object);
+    for (size_t i = 0; i < before.size(); ++i) {
+      ASSERT_EQ(before[i] < 0.0F, after[i] < 0.0F);
+      ASSERT_LE(std::abs(before[i] - after[i]), 4.001F * fieldCodeStep(8));
+    }
+  }
+}
+
 TEST_F(Field, IsTheSameInEveryRun) {
   const RigidObject object = objectOf(coneAndBox());
   const FieldForm form{PositionForm::Lattice, 290, DirectionForm::Concentric, 32, 32};
