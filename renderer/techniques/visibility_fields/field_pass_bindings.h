@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What shaders of visibility fields are bound to. For C++ and GLSL. Storage buffers 2 to 4 are
+// the fields' (field_bindings.h), 6 and 7 those of the tree of rays.
+#pragma once
+
+#include "renderer/gl/shader_shared.h"
+
+#ifdef __cplusplus
+namespace limen::techniques {
+#endif
+
+const uint kFieldPositionUnit = 0u;
+const uint kFieldNormalUnit = 1u;
+const uint kFieldIdsUnit = 2u;
+const uint kFieldReceiversUnit = 3u;
+const uint kFieldOutImage = 1u;
+
+const uint kFieldCountsBuffer = 5u;  // kFieldCountSlots numbers of look-ups
+const int kFieldCountSlots = 64;
+
+const int kFalloffBinary = 0;
+const int kFalloffLinear = 1;
+const int kFalloffExponential = 2;
+const int kLightRectangle = 0;
+const int kLightSphere = 1;
+const int kCombineNearest = 0;
+const int kCombineProduct = 1;
+const int kCombineSubtract = 2;
+
+#ifdef __cplusplus
+}  // namespace limen::techniques
+#endif

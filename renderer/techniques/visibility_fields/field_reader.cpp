@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/visibility_fields/field_reader.h"
+
+#include <epoxy/gl.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "experiments/base/error.h"
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+#include "renderer/visibility_fields/field_bindings.h"
+
+namespace limen::techniques {
+namespace vf = visibility_fields;
+namespace {
+
+constexpr int64_t kMostSoftwareSteps = 60000;
+
+vf::RigidObjects objectsOf(const frame::Frame& frame, vf::ObjectForm form) {
+  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), form);
+  if (objects.objects.size() > kMostFieldObjects)
+    throw Error("the scene has " + std::to_string(objects.objects.size()) + " objects; at most " +
+                    std::to_string(kMostFieldObjects) + " can have visibility fields",
+                "objects", "use 'parts', or a smaller scene");
+  return objects;
+}
+
+/// Numbered as in the scene, without those of no object.
+ray_tracing::RayScene objectRays(frame::Frame& frame, const vf::RigidObjects& objects) {
+  const scene::Mesh& mesh = frame.scene().mesh;
+  std::vector<glm::vec3> vertices;
+  for (const glm::dvec3 p : mesh.positions) vertices.emplace_back(p - frame.gpuScene().anchor());
+  std::vector<glm::uvec3> triangles = mesh.triangles;
+  // Without area: left out of the tree, but counted.
+  for (size_t i = 0; i < triangles.size(); ++i)
+    if (objects.objectOf[i] == vf::kFieldNoObject) triangles[i] = glm::uvec3(0);
+  return {frame.context(), vertices, triangles};
+}
+
+const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel channel) {
+  return frame.get<frame::GBufferChannel>(frame::ChannelSetting{channel});
+}
+
+}  // namespace
+
+const SettingsTable<ReceiverRays>& ReceiverRays::table() {
+  using S = ReceiverRays;
+  static const SettingsTable<S> kTable = {
+      {&S::rays, "rays", {1, 1024}, "rays", "Rays per pixel, a square number", "Gaitatzes 2012, section 4.7"},
+      {&S::turned, "turned", "Choose other rays for each pixel, at random", "bench"},
+      {&S::seed, "seed", {0, 1000000}, "", "Seed of that choice"},
+      {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
+       "Gaitatzes 2012, section 4.4.2"},
+      {&S::objects, "objects", "What of the scene is one rigid object"}};
+  return kTable;
+}
+
+int ReceiverRays::side() const { return static_cast<int>(std::lround(std::sqrt(double(rays)))); }
+
+void ReceiverRays::check() const {
+  if (int64_t{side()} * side() != rays)
+    throw Error("'rays' is " + std::to_string(rays) + ", not a square number", "rays",
+                "give " + std::to_string(side() * side()));
+}
+
+void ReceiverRays::makeInputs(frame::Frame& frame) {
+  channelOf(frame, frame::Channel::Position);
+  channelOf(frame, frame::Channel::Normal);
+  frame.get<frame::TriangleIds>();
+}
+
+void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) const {
+  channelOf(frame, frame::Channel::Position).texture().bindTexture(kFieldPositionUnit);
+  channelOf(frame, frame::Channel::Normal).texture().bindTexture(kFieldNormalUnit);
+  frame.get<frame::TriangleIds>().texture().bindTexture(kFieldIdsUnit);
+  program.set("sizePx", frame.sizePx());
+  program.set("raySide", side());
+  program.set("turned", turned ? 1 : 0);
+  program.set("seed", static_cast<uint32_t>(seed));
+  program.set("selfOcclusion", selfOcclusion ? 1 : 0);
+  program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
+}
+
+const SettingsTable<FieldReading>& FieldReading::table() {
+  using S = FieldReading;
+  static const SettingsTable<S> kTable = {
+      included(&S::form),
+      {&S::slack,
+       "slack",
+       {0.0, 20.0},
+       "spacings",
+       "From inside an object's sphere: by how much a blocker must lie "
+       "before the origin so that it is not the "
+       "surface that the ray starts on, in spacings of the field's rays",
+       "Gaitatzes 2012, section 4.4.2 (without a value)"},
+      {&S::tolerance,
+       "tolerance",
+       {0, 64},
+       "codes",
+       "By how much codes of 8 bits may change so that runs of equal ones are longer: lossy compression",
+       "Gaitatzes 2012, section 4.8 (suggested)"}};
+  return kTable;
+}
+
+void FieldReading::check() const {
+  if (tolerance > 0 && form.bits != 8)
+    throw Error("'tolerance' is for codes of 8 bits; 'bits' is " + std::to_string(form.bits), "tolerance",
+                "leave out 'tolerance', or give bits: 8");
+}
+
+void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays) {
+  const vf::RigidObjects objects = objectsOf(frame, rays.objects);
+  const int64_t steps = rays.rays * static_cast<int64_t>(objects.objects.size() + 2);
+  if (frame.context().device().software && steps > kMostSoftwareSteps)
+    throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.objects.size()) +
+                    " objects take more steps than a software renderer allows",
+                "rays", "use fewer rays, or a GPU");
+  fields_.emplace(frame.context(), objects.objects, settings_.form, settings_.tolerance);
+  objectOf_.emplace(objects.objectOf);
+  std::vector<vf::Pose> poses;
+  for (const vf::RigidObject& object : objects.objects) poses.push_back(vf::VisibilityFields::poseOf(object));
+  fields_->place(poses, frame.gpuScene().anchor());
+}
+
+void FieldReader::bind(const gl::Program& program) const {
+  fields_->bind(program);
+  objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
+  // In radii: neighbouring positions are sqrt(4 pi / positions) apart on average, and rays of neighbouring
+  // directions, whose discs have the area pi together, sqrt(pi) / directions at the distance of a radius.
+  const double spacing = std::sqrt(4.0 * M_PI / double(fields_->positionMap().points().size())) +
+                         std::sqrt(M_PI) / settings_.form.directions;
+  program.set("slack", static_cast<float>(0.5 * settings_.slack * spacing));
+}
+
+gl::Buffer FieldReader::emptyCounts() {
+  gl::Buffer counts(int64_t{4} * kFieldCountSlots, nullptr);
+  counts.clearUint(0);
+  return counts;
+}
+
+std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const frame::Frame& frame) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const std::vector<uint32_t> each = counts.read<uint32_t>();
+  const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
+  return {{"field_lookups_per_px", std::accumulate(each.begin(), each.end(), 0.0) / pixels},
+          {"field_mib", double(fields_->bytes()) / (1 << 20)},
+          {"field_run_length_mib", double(fields_->runLengthBytes()) / (1 << 20)},
+          {"field_rays", double(fields_->rayCount())},
+          {"field_objects", double(fields_->objectCount())}};
+}
+
+std::vector<Quantity> FieldReader::quantities() {
+  return {{"field_lookups_per_px", "Look-ups in fields, per pixel", "1/px", Direction::LowerIsBetter,
+           "Gaitatzes 2012, section 4.7.1"},
+          {"field_mib", "Size of the fields", "MiB", Direction::LowerIsBetter, "Gaitatzes 2012, Fig. 42"},
+          {"field_run_length_mib", "Size of the fields as run lengths", "MiB", Direction::LowerIsBetter,
+           "Gaitatzes 2012, section 4.8"},
+          {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
+           "Gaitatzes 2012, section 4.4.1"},
+          {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"}};
+}
+
+void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays) {
+  const vf::RigidObjects objects = objectsOf(frame, rays.objects);
+  rays_.emplace(objectRays(frame, objects));
+  objectOf_.emplace(objects.objectOf);
+}
+
+void ObjectTracer::bind(const gl::Program& program) const {
+  rays_->bind(program);
+  objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
+}
+
+void ObjectTracer::dispatchRows(const gl::Program& program, frame::Frame& frame, int rows) {
+  const int atOnce = frame.context().device().software ? 1 : rows;
+  for (int row = 0; row < rows; row += atOnce) {
+    program.set("firstRow", row);
+    program.set("lastRow", row + atOnce - 1);
+    program.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+}
+
+}  // namespace limen::techniques

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/base/settings_table.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/techniques/technique.h"
+#include "renderer/visibility_fields/visibility_fields.h"
+
+namespace limen::techniques {
+
+/// Most objects of a scene that have fields.
+inline constexpr size_t kMostFieldObjects = 256;
+
+/// Rays a pixel, its receiver and the objects that may block them: the same for a field and for the tracer
+/// that it is compared with.
+struct ReceiverRays {
+  int64_t rays = 64;
+  bool turned = false;
+  int64_t seed = 1;
+  bool selfOcclusion = true;
+  visibility_fields::ObjectForm objects = visibility_fields::ObjectForm::Parts;
+  static const SettingsTable<ReceiverRays>& table();
+  /// Throws Error unless `rays` is a square number.
+  void check() const;
+
+  int side() const;
+  /// Makes the inputs of field_receiver.glsl, before a pass is opened.
+  static void makeInputs(frame::Frame& frame);
+  /// Textures and uniforms of field_receiver.glsl and of the rays' cells; after makeInputs().
+  void configure(const gl::Program& program, frame::Frame& frame) const;
+};
+
+/// How fields are made and read.
+struct FieldReading {
+  visibility_fields::FieldForm form;
+  double slack = 1.0;
+  int tolerance = 0;
+  static const SettingsTable<FieldReading>& table();
+  /// Throws Error if there is a tolerance for codes of other than 8 bits.
+  void check() const;
+};
+
+/// The fields of a frame's scene for shaders that include object_lookup.glsl.
+class FieldReader {
+ public:
+  explicit FieldReader(const FieldReading& settings) : settings_(settings) {}
+  /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
+  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  gl::ShaderDefines defines() const { return settings_.form.defines(); }
+  void bind(const gl::Program& program) const;
+  int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
+
+  /// Look-ups that run(counts) makes with a program compiled with COUNT and `counts` bound to
+  /// kFieldCountsBuffer, and what the fields take.
+  template <class Run>
+  std::vector<Counter> count(frame::Frame& frame, const Run& run) const {
+    const gl::Buffer counts = emptyCounts();
+    run(counts);
+    return countersOf(counts, frame);
+  }
+  static std::vector<Quantity> quantities();
+
+ private:
+  static gl::Buffer emptyCounts();
+  std::vector<Counter> countersOf(const gl::Buffer& counts, const frame::Frame& frame) const;
+
+  FieldReading settings_;
+  std::optional<visibility_fields::VisibilityFields> fields_;
+  std::optional<gl::Buffer> objectOf_;
+};
+
+/// The objects' triangles for shaders that include object_trace.glsl.
+class ObjectTracer {
+ public:
+  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  void bind(const gl::Program& program) const;
+  int64_t bytesHeld() const { return rays_->bytes() + objectOf_->bytes(); }
+  /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
+  /// software renderer, which limits the steps of an invocation.
+  static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);
+
+ private:
+  std::optional<ray_tracing::RayScene> rays_;
+  std::optional<gl::Buffer> objectOf_;
+};
+
+}  // namespace limen::techniques

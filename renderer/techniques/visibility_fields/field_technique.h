@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two techniques over the same rays: looked up in fields, or traced. What differs is in their settings:
+// `rays` (with a member `receiver`, makeInputs() and configure()), the shader, the pass and the product's
+// format.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <optional>
+#include <vector>
+
+#include "renderer/techniques/technique.h"
+#include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+#include "renderer/techniques/visibility_fields/field_reader.h"
+
+namespace limen::techniques {
+
+/// S: also `field`, a FieldReading, and define(), which adds to the shader's defines.
+template <class S>
+class FieldTechnique : public Technique {
+ public:
+  using Settings = S;
+  explicit FieldTechnique(const S& settings) : settings_(settings), reader_(settings.field) {}
+
+  void prepare(frame::Frame& frame) override {
+    reader_.prepare(frame, settings_.rays.receiver);
+    gl::ShaderDefines defines = reader_.defines();
+    settings_.define(defines);
+    program_ = &frame.context().programs().compute(S::kShader, defines);
+    defines["COUNT"] = "1";
+    counting_ = &frame.context().programs().compute(S::kShader, defines);
+    picture_.emplace(S::kFormat, frame.sizePx());
+    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld());
+  }
+  void render(frame::Frame& frame) override { run(frame, *program_, nullptr); }
+  const gl::Texture& product() const override { return *picture_; }
+  std::vector<Counter> count(frame::Frame& frame) override {
+    return reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
+  }
+
+ private:
+  void run(frame::Frame& frame, const gl::Program& program, const gl::Buffer* counts) {
+    settings_.rays.makeInputs(frame);
+    const auto scope = frame.passes().open(S::kPass);
+    reader_.bind(program);
+    if (counts) counts->bindStorage(kFieldCountsBuffer);
+    settings_.rays.configure(program, frame);
+    picture_->bindImage(kFieldOutImage, gl::Access::Write);
+    program.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  S settings_;
+  FieldReader reader_;
+  std::optional<gl::Texture> picture_;
+  const gl::Program *program_ = nullptr, *counting_ = nullptr;
+};
+
+template <class S>
+class TracedTechnique : public Technique {
+ public:
+  using Settings = S;
+  explicit TracedTechnique(const S& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    tracer_.prepare(frame, settings_.rays.receiver);
+    program_ = &frame.context().programs().compute(S::kShader);
+    picture_.emplace(S::kFormat, frame.sizePx());
+    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + tracer_.bytesHeld());
+  }
+  void render(frame::Frame& frame) override {
+    settings_.rays.makeInputs(frame);
+    const auto scope = frame.passes().open(S::kPass);
+    tracer_.bind(*program_);
+    settings_.rays.configure(*program_, frame);
+    picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
+    ObjectTracer::dispatchRows(*program_, frame, settings_.rays.receiver.side());
+  }
+  const gl::Texture& product() const override { return *picture_; }
+
+ private:
+  S settings_;
+  ObjectTracer tracer_;
+  std::optional<gl::Texture> picture_;
+  const gl::Program* program_ = nullptr;
+};
+
+}  // namespace limen::techniques

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rays of a pixel for ambient occlusion, the same for fields and for tracers, and what their distances mean. Set up by
+// OcclusionRays::configure().
+#include "renderer/techniques/visibility_fields/field_receiver.glsl"
+
+uniform int raySide, turned, falloff;
+uniform uint seed;
+uniform float falloffRadius;
+
+// Axes across the receiver's normal, turned from pixel to pixel if so chosen.
+struct OcclusionFrame {
+  vec3 x, y, z;
+};
+OcclusionFrame occlusionFrame(ivec2 pixel, FieldReceiver receiver) {
+  const vec3 x = fieldTangent(receiver.normal), y = fieldBitangent(receiver.normal);
+  const float angle = turned == 0 ? 0.0 : 2.0 * kFieldPi * pixelPlace(pixel, 0u, seed).x;
+  return OcclusionFrame(cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x, receiver.normal);
+}
+
+// Spread by the cosine.
+vec3 occlusionDirection(OcclusionFrame frame, ivec2 cell) {
+  const vec3 local = fieldDirection((vec2(cell) + 0.5) / float(raySide), kFieldConcentric);
+  return normalize(local.x * frame.x + local.y * frame.y + local.z * frame.z);
+}
+
+// Share of light that a surface at this distance lets through.
+float visibilityAt(float distance) {
+  if (falloff == kFalloffBinary) return distance > falloffRadius ? 1.0 : 0.0;
+  const float relative = distance / falloffRadius;
+  return falloff == kFalloffLinear ? min(1.0, relative) : 1.0 - exp(-relative);
+}

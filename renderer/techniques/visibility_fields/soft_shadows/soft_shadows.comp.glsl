@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Share of a light's points that no object hides by its field: none lies nearer than the point.
+#include "renderer/techniques/visibility_fields/shadow_rays.glsl"
+#include "renderer/techniques/visibility_fields/object_lookup.glsl"
+
+layout(binding = kFieldOutImage, r32f) uniform writeonly image2D outImage;
+
+float seenShare(ivec2 pixel, FieldReceiver receiver) {
+  float seen = 0.0;
+  for (int y = 0; y < raySide; ++y)
+    for (int x = 0; x < raySide; ++x) {
+      const vec3 way = lightPoint(pixel, receiver, ivec2(x, y)) - receiver.origin;
+      const float reach = length(way), nearest = nearestDistance(receiver, way / reach);
+      seen += nearest >= 0.0 && nearest < reach ? 0.0 : 1.0;
+    }
+  return seen / float(raySide * raySide);
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  FieldReceiver receiver;
+  float seen = 1.0;
+  if (isLit(pixel) && fieldReceiver(pixel, receiver)) seen = seenShare(pixel, receiver);
+  imageStore(outImage, pixel, vec4(seen));
+  countLookUps(pixel);
+}

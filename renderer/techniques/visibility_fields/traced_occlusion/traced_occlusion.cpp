@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rays of visibility_fields/ambient_occlusion, traced against the triangles of the same objects instead:
+// what fields are compared with, exact for those rays, and the tracer that they must beat. Source: Gaitatzes
+// 2012, section 4.7 (MT-01; BL-02 without its grid).
+#include "renderer/techniques/visibility_fields/field_technique.h"
+#include "renderer/techniques/visibility_fields/occlusion_settings.h"
+
+namespace limen::techniques {
+namespace {
+
+struct ObjectOcclusionSettings {
+  static constexpr const char* kShader =
+      "renderer/techniques/visibility_fields/traced_occlusion/traced_occlusion.comp.glsl";
+  static constexpr const char* kPass = "visibility_fields/traced_occlusion";
+  static constexpr gl::Format kFormat = gl::Format::RGBA32F;
+
+  OcclusionRays rays;
+  static const SettingsTable<ObjectOcclusionSettings>& table() {
+    static const SettingsTable<ObjectOcclusionSettings> kTable = {included(&ObjectOcclusionSettings::rays)};
+    return kTable;
+  }
+};
+
+const RegisteredTechnique<TracedTechnique<ObjectOcclusionSettings>> kObjectOcclusion{
+    {.name = "visibility_fields/traced_occlusion",
+     .version = 1,
+     .summary = "Ambient occlusion by the same rays as from visibility fields, traced on the GPU",
+     .source = "Gaitatzes 2012, section 4.7 (MT-01; BL-02 without its grid)",
+     .product = ProductKind::Colour,
+     .needs = {"casters"},
+     .reference = true,
+     .effort = "rays"}};
+
+}  // namespace
+}  // namespace limen::techniques

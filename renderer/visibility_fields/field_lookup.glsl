@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays against objects by their fields. Source: Gaitatzes 2012, section 4.4.2. Set up as field_texel.glsl.
+#include "renderer/visibility_fields/field_texel.glsl"
+
+layout(std430, binding = kFieldObjectsBuffer) readonly buffer FieldObjects { FieldObject fieldObjects[]; };
+uniform uint fieldObjectCount;
+
+const float kFieldNothing = -1.0;
+uint fieldLookUps = 0u;  // spheres that rays of this invocation met
+
+void fieldOffer(uint firstMap, int index, vec3 direction, inout float most, inout int best) {
+  const float cosine = dot(fieldMaps[firstMap + uint(index)].xyz, direction);
+  if (cosine > most) {
+    most = cosine;
+    best = index;
+  }
+}
+
+void fieldOfferCorner(uint firstMap, ivec2 at, vec3 folded, inout float most, inout ivec2 found) {
+  if (at.x + at.y > FIELD_SEGMENTS) return;
+  const float cosine = dot(fieldMaps[firstMap + uint(fieldLatticeIndex(at.x, at.y, false, FIELD_SEGMENTS))].xyz, folded);
+  if (cosine > most) {
+    most = cosine;
+    found = at;
+  }
+}
+
+// Number of the position nearest to a unit vector, as PositionMap::nearest() finds it. Lattice: four candidates; their corner of the
+// octant is the same in all octants.
+int fieldNearestPosition(uint firstMap, vec3 d) {
+  float most = -2.0;
+  int best = 0;
+#if FIELD_POSITION_FORM == 0
+  const ivec2 cell = ivec2(floor(fieldLatticePlace(d, FIELD_SEGMENTS)));
+  const vec3 folded = abs(d);
+  ivec2 found = cell;
+  fieldOfferCorner(firstMap, cell, folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(1, 0), folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(0, 1), folded, most, found);
+  fieldOfferCorner(firstMap, cell + ivec2(1, 1), folded, most, found);
+  best = fieldLatticeIndex(d.x < 0.0 ? -found.x : found.x, d.y < 0.0 ? -found.y : found.y, d.z < 0.0, FIELD_SEGMENTS);
+#elif FIELD_POSITION_FORM == 1
+  const int rows = FIELD_SEGMENTS;
+  const int row = int(floor(atan(length(d.xy), d.z) / kFieldPi * float(rows)));
+  const int column = int(floor((d.x == 0.0 && d.y == 0.0 ? 0.0 : atan(d.y, d.x)) / kFieldPi * float(rows)));
+  for (int at = max(row - 1, 0); at <= min(row + 1, rows - 1); ++at)
+    fieldOffer(firstMap, 2 * rows * at + (column + 2 * rows) % (2 * rows), d, most, best);
+#else
+  const vec3 size = abs(d);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int face = 2 * axis + (d[axis] < 0.0 ? 1 : 0);
+  const vec2 place = vec2(d[(axis + 1) % 3], d[(axis + 2) % 3]) / size[axis];
+  const ivec2 cell = ivec2(floor((place + 1.0) * 0.5 * float(FIELD_SEGMENTS)));
+  for (int j = max(cell.y - 1, 0); j <= min(cell.y + 1, FIELD_SEGMENTS - 1); ++j)
+    for (int i = max(cell.x - 1, 0); i <= min(cell.x + 1, FIELD_SEGMENTS - 1); ++i)
+      fieldOffer(firstMap, (face * FIELD_SEGMENTS + j) * FIELD_SEGMENTS + i, d, most, best);
+#endif
+  return best;
+}
+
+// Map and texel of the ray from a point of the unit sphere along a unit vector, both in the object's axes.
+struct FieldEntry {
+  int map;
+  ivec2 texel;
+};
+FieldEntry fieldEntry(uint firstMap, vec3 point, vec3 direction) {
+  FieldEntry entry;
+  entry.map = int(firstMap) + fieldNearestPosition(firstMap, point);
+  const vec3 inwards = -fieldMaps[entry.map].xyz;
+  vec3 local = vec3(dot(fieldTangent(inwards), direction), dot(fieldBitangent(inwards), direction), dot(inwards, direction));
+  // A ray that grazes the sphere may leave the half space of the nearest position.
+  if (local.z < 0.0) local = vec3(local.xy / length(local.xy), 0.0);
+  entry.texel = fieldTexel(local, FIELD_SIDE, FIELD_DIRECTION_FORM);
+  return entry;
+}
+
+vec3 fieldToObject(FieldObject object, vec3 v) {
+  return vec3(dot(object.axisX.xyz, v), dot(object.axisY.xyz, v), dot(object.axisZ.xyz, v));
+}
+
+// Where a ray passes an object's sphere: distances of entry and exit, and the point halfway, relative to the centre. Nearest to
+// the centre the ray is known best, so that a far origin costs nothing.
+struct FieldPassage {
+  float entry, leave;  // entry > leave: it misses
+  vec3 middle;
+  float halfLength;
+};
+FieldPassage fieldPassage(FieldObject object, vec3 origin, vec3 direction) {
+  const vec3 fromCentre = origin - object.centre;
+  const float along = -dot(fromCentre, direction);
+  FieldPassage passage;
+  passage.middle = fromCentre + along * direction;
+  const float squared = object.radius * object.radius - dot(passage.middle, passage.middle);
+  passage.halfLength = sqrt(max(squared, 0.0));
+  passage.entry = along - passage.halfLength;
+  passage.leave = squared > 0.0 ? along + passage.halfLength : passage.entry - 1.0;
+  return passage;
+}
+
+// Distance to the object along the ray; kFieldNothing: none. From inside its sphere the field tells what is met first on the way
+// back from where the ray leaves: the ray is blocked if that lies before the origin by more than `slack` diameters, and the
+// distance is the farthest that the blocker can be.
+float fieldDistance(uint index, vec3 origin, vec3 direction, float slack) {
+  const FieldObject object = fieldObjects[index];
+  const FieldPassage passage = fieldPassage(object, origin, direction);
+  if (!(passage.leave > max(passage.entry, 0.0))) return kFieldNothing;
+  ++fieldLookUps;
+  const vec3 way = fieldToObject(object, direction);
+  const vec3 middle = fieldToObject(object, passage.middle);
+  const bool inside = passage.entry < 0.0;
+  const vec3 point = normalize(middle + (inside ? passage.halfLength : -passage.halfLength) * way);
+  const FieldEntry entry = fieldEntry(object.firstMap, point, inside ? -way : way);
+  const float share = fieldShare(entry.map, entry.texel);
+  if (share < 0.0) return kFieldNothing;
+  const float fromSphere = 2.0 * object.radius * share;
+  if (!inside) return passage.entry + fromSphere;
+  const float before = passage.leave - fromSphere;
+  return before > 2.0 * object.radius * slack ? before : kFieldNothing;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the words of a field lie: maps are tiles, packed row by row into the slices of an array texture
+// (Gaitatzes 2012, Fig. 28). For C++ and GLSL.
+#pragma once
+
+#include "renderer/visibility_fields/map_functions.h"
+
+#ifdef __cplusplus
+namespace limen::visibility_fields {
+using glm::ivec3;
+#endif
+
+// x, y and slice of a word of map `map`: column and row in the map. `tile`: words of a map along x and y;
+// `side`: of a slice.
+FIELD_FUNCTION ivec3 fieldWordPlace(int map, ivec2 word, ivec2 tile, int side) {
+  const ivec2 tiles = ivec2(side / tile.x, side / tile.y);
+  const int inSlice = map % (tiles.x * tiles.y);
+  return ivec3(ivec2(inSlice % tiles.x, inSlice / tiles.x) * tile + word, map / (tiles.x * tiles.y));
+}
+
+#ifdef __cplusplus
+}  // namespace limen::visibility_fields
+#endif

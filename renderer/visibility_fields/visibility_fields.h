@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/context.h"
+#include "renderer/gl/texture.h"
+#include "renderer/visibility_fields/field_form.h"
+#include "renderer/visibility_fields/rigid_objects.h"
+
+namespace limen::visibility_fields {
+
+/// Where an object stands: rotated about its sphere's centre, which moves and grows with it.
+struct Pose {
+  glm::dmat3 axes{1.0};  ///< of the object, as columns: a rotation
+  glm::dvec3 centre{0.0};
+  double radius = 1.0;
+};
+
+/// Fields of several objects in GPU memory: for every position on an object's bounding sphere a map of the
+/// distances to its surface. Source: Gaitatzes 2012, section 4.4.
+class VisibilityFields {
+ public:
+  /// Makes the fields in compute. `tolerance`: codes of 8 bits may change by as much, so that runs of equal
+  /// ones are longer; 0: none does. Throws Error if the device cannot hold them.
+  VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects, const FieldForm& form,
+                   int tolerance = 0);
+
+  /// Where objects stand, relative to `anchor`; one pose an object. They stand where they were made until it
+  /// is called, relative to the origin.
+  void place(const std::vector<Pose>& poses, glm::dvec3 anchor);
+  static Pose poseOf(const RigidObject& object) {
+    return {glm::dmat3(1.0), object.sphere.centre, object.sphere.radius};
+  }
+
+  /// Buffers, texture and uniforms of field_lookup.glsl, for the next dispatches of `program`.
+  void bind(const gl::Program& program) const;
+  const FieldForm& form() const { return form_; }
+  const PositionMap& positionMap() const { return positionMap_; }
+  uint32_t objectCount() const { return objectCount_; }
+  int64_t rayCount() const;  ///< traced to make the fields, unused texels included
+  int64_t bytes() const;     ///< of the words themselves, unused parts of slices left out
+  int64_t bytesHeld() const;
+  /// Bytes of all words as run lengths (run_lengths.h); waits for the GPU.
+  int64_t runLengthBytes() const;
+
+  /// The words of an object's map; waits for the GPU. Row by row, FieldForm::wordsPerRow() each.
+  std::vector<uint32_t> readWords(uint32_t object) const;
+  /// Distances of an object as shares of the diameter, -1 for none: [position][row][column]. Waits for the
+  /// GPU.
+  std::vector<float> readShares(uint32_t object) const;
+
+ private:
+  void make(gl::Context& context, const RigidObject& object, uint32_t index) const;
+  void lengthen(int tolerance) const;
+  int mapsPerObject() const { return static_cast<int>(positionMap_.points().size()); }
+
+  FieldForm form_;
+  PositionMap positionMap_;
+  uint32_t objectCount_;
+  int sliceSide_;
+  std::optional<gl::Texture> words_;
+  gl::Buffer maps_, objects_;
+};
+
+}  // namespace limen::visibility_fields

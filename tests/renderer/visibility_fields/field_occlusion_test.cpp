@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ambient occlusion from fields against closed forms, and against the same rays traced.
+#include <cmath>
+
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+#include "tests/renderer/techniques/technique_fixture.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr glm::ivec2 kSizePx{40, 30};
+constexpr const char *kField = "visibility_fields/ambient_occlusion",
+                     *kTraced = "visibility_fields/traced_occlusion";
+
+class FieldOcclusionTest : public TechniqueTest {
+ protected:
+  /// Straight down on the ground from below whatever hangs there.
+  static void lookDown(scene::Scene& scene) {
+    scene::setStillCamera(scene, {{0.0, 0.4, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 60.0});
+  }
+  static glm::dvec3 groundPoint(int x, int y) {
+    const double half = 0.4 * std::tan(glm::radians(30.0));
+    return {(2.0 * (x + 0.5) / kSizePx.x - 1.0) * half * kSizePx.x / kSizePx.y, 0.0,
+            (2.0 * (y + 0.5) / kSizePx.y - 1.0) * half};
+  }
+  static double meanOf(const Image& image) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) sum += image.at(x, y);
+    return sum / (double(image.width) * image.height);
+  }
+};
+
+/// Two balls that hang as one object above the ground.
+constexpr double kBall = 0.3;
+constexpr glm::dvec3 kFirst{-0.6, 1.0, 0.1}, kSecond{0.6, 1.2, -0.1};
+scene::Scene twoBalls() {
+  scene::Scene scene;
+  scene::addGround(scene, 8.0);
+  scene::Mesh balls = scene::sphere(kFirst, kBall, 24);
+  scene::append(balls, scene::sphere(kSecond, kBall, 24));
+  scene::addPart(scene, "balls", balls, glm::vec3(0.5F));
+  return scene;
+}
+
+/// A ball above the horizon hides sin^2 of its angular radius times the cosine of its middle (Nusselt's
+/// analogue).
+double hiddenBy(glm::dvec3 ball, glm::dvec3 point) {
+  const glm::dvec3 d = ball - point;
+  return kBall * kBall / glm::dot(d, d) * glm::normalize(d).y;
+}
+
+// The two balls are nowhere behind each other as seen from the ground below. Traced: 1024 rays in as many
+// cells; those that the outline of a ball cuts, an ellipse in the unit disc of length below 2 pi 0.35, pi /
+// 32^2 each, number below 2 * 2.2 * 32 / 1.77
+// * 1.5 = 120 for both, and each may count either way; as good as independent, 3 deviations are 3 * 0.5 *
+// sqrt(120) / 1024 = 0.016. Meshed balls lose up to 1 - cos(pi / 96) = 5e-4 of their radius. Fields: an
+// outline is moved by less than the distance between positions, 0.04 radii of 1, and a texel, 4 / (pi 64) at
+// a distance up to 2: 0.08, by which a ball of 0.3 gains or loses up to 2 * 0.08 / 0.3 of its 0.17 together.
+// On average over the picture gains and losses cancel, to a tenth.
+TEST_F(FieldOcclusionTest, BallsHideWhatTheirSolidAnglesSay) {
+  scene::Scene scene = twoBalls();
+  lookDown(scene);
+  for (const bool traced : {true, false}) {
+    Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}};
+    if (!traced) given.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}});
+    const Image image = render(scene, traced ? kTraced : kField, given, kSizePx).product;
+    double sum = 0.0;
+    for (int y = 0; y < kSizePx.y; ++y)
+      for (int x = 0; x < kSizePx.x; ++x) {
+        const glm::dvec3 p = groundPoint(x, y);
+        const double hidden = hiddenBy(kFirst, p) + hiddenBy(kSecond, p);
+        ASSERT_NEAR(image.at(x, y), 1.0 - hidden, 0.017 + (traced ? 0.0 : 0.53 * hidden)) << x << ' ' << y;
+        sum += image.at(x, y) - (1.0 - hidden);
+      }
+    EXPECT_LT(std::abs(sum / (kSizePx.x * kSizePx.y)), traced ? 0.002 : 0.01);
+  }
+}
+
+// Errors against the same rays fall with positions (Gaitatzes 2012, Fig. 35).
+TEST_F(FieldOcclusionTest, ErrorFallsWithPositions) {
+  scene::Scene scene = twoBalls();
+  lookDown(scene);
+  const Given rays = {{"rays", int64_t{256}}, {"radius", 10.0}};
+  const Image exact = render(scene, kTraced, rays, kSizePx).product;
+  double before = 1.0;
+  for (const int64_t positions : {82, 290, 1090, 4226}) {
+    Given given = rays;
+    given["positions"] = positions;
+    const double error = meanDifference(render(scene, kField, given, kSizePx).product, exact);
+    // Four times the positions: half the distance between them.
+    EXPECT_LT(error, 0.8 * before) << positions;
+    before = error;
+  }
+}
+
+// The same object twice: the nearest hit knows that they hide each other, products and sums do not.
+TEST_F(FieldOcclusionTest, CombinesObjectsAsItSays) {
+  scene::Scene one = twoBalls(), two = twoBalls();
+  scene::Mesh balls = scene::sphere(kFirst, kBall, 24);
+  scene::append(balls, scene::sphere(kSecond, kBall, 24));
+  scene::addPart(two, "again", balls, glm::vec3(0.5F));
+  lookDown(one), lookDown(two);
+  const Given given = {{"rays", int64_t{64}}, {"radius", 10.0}, {"positions", int64_t{290}}};
+  const Image single = render(one, kField, given, kSizePx).product;
+  ASSERT_LT(meanOf(single), 0.95);
+  for (const char* combine : {"nearest", "product", "subtract"}) {
+    Given both = given;
+    both["combine"] = std::string(combine);
+    const Image image = render(two, kField, both, kSizePx).product;
+    for (int y = 0; y < kSizePx.y; ++y)
+      for (int x = 0; x < kSizePx.x; ++x) {
+        const double a = single.at(x, y);
+        const double expected = combine[0] == 'n'   ? a
+                                : combine[0] == 'p' ? a * a
+                                                    : std::max(0.0, 2.0 * a - 1.0);
+        ASSERT_NEAR(image.at(x, y), expected, 1e-5) << combine;
+      }
+  }
+}
+
+// At a wall that is part of the same object: beside a wall of height h at the distance d (1 - d / sqrt(d^2 +
+// h^2)) / 2 is hidden. Floor and wall lie in a sphere of radius 2.3; a position is up to 0.04 of it away and
+// a texel 4 / (pi 64) at up to 4.6, which moves the wall's top by up to 0.18 and what it hides by up to 0.15
+// of that, 0.027. The floor's own share is as much as a convex object may hide of itself, 0.03 below. Single
+// pixels may err twice as much as the mean, as positions are the same for whole areas.
+TEST_F(FieldOcclusionTest, AnObjectOccludesItself) {
+  scene::Scene scene;
+  scene::Mesh corner = scene::box({0.0, -0.1, -2.0}, {2.0, 0.0, 2.0});
+  scene::append(corner, scene::box({-0.1, -0.1, -2.0}, {0.0, 1.0, 2.0}));
+  scene::addPart(scene, "corner", corner, glm::vec3(0.5F));
+  scene::setStillCamera(scene, {{1.0, 1.5, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 20.0});
+  const Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}};
+  const Image traced = render(scene, kTraced, given, kSizePx).product;
+  Given fine = given;
+  fine.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}});
+  const Image found = render(scene, kField, fine, kSizePx).product;
+  fine["self_occlusion"] = false;
+  const Image without = render(scene, kField, fine, kSizePx).product;
+  for (int y = 0; y < kSizePx.y; ++y)
+    for (int x = 0; x < kSizePx.x; ++x) {
+      const double d = 1.0 + (2.0 * (x + 0.5) / kSizePx.x - 1.0) * 1.5 * std::tan(glm::radians(10.0)) *
+                                 kSizePx.x / kSizePx.y;
+      const double hidden = 0.5 * (1.0 - d / std::hypot(d, 1.0));
+      // The wall's ends, 2 away to both sides, leave open less than what a wall of its height would hide
+      // there: 0.053, at most half of it towards the wall. Rays as above: outline below 2 long, 60 cells.
+      ASSERT_NEAR(traced.at(x, y), 1.0 - hidden, 0.012 + 0.05) << d;
+      ASSERT_NEAR(found.at(x, y), traced.at(x, y), 0.12) << d;
+      ASSERT_EQ(without.at(x, y), 1.0F);
+    }
+  EXPECT_LT(meanDifference(found, traced), 0.06);
+}
+
+// A box is convex, and nothing else is there: what is dark is acne. More slack cannot add to it, and from one
+// spacing on it is what an eye does not see in a smooth picture, 3 %.
+TEST_F(FieldOcclusionTest, SlackKeepsAConvexObjectFromOccludingItself) {
+  scene::Scene scene;
+  scene::addPart(scene, "box", scene::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), glm::vec3(0.5F));
+  scene::setStillCamera(scene, scene::orbitCamera({0.0, 0.0, 0.0}, 3.0, 30.0, 30.0));
+  Given given = {{"rays", int64_t{64}}, {"radius", 10.0}, {"positions", int64_t{4226}}};
+  EXPECT_EQ(meanOf(render(scene, kTraced, {{"rays", int64_t{64}}, {"radius", 10.0}}, kSizePx).product), 1.0);
+  double before = 0.0;
+  for (const double slack : {0.0, 0.5, 1.0, 2.0}) {
+    given["slack"] = slack;
+    const double open = meanOf(render(scene, kField, given, kSizePx).product);
+    EXPECT_GE(open, before);
+    before = open;
+    if (slack >= 1.0) {
+      EXPECT_GT(open, 0.97) << slack;
+    }
+  }
+}
+
+TEST_F(FieldOcclusionTest, IsTheSameInEveryRunAndFarFromTheOrigin) {
+  const Given given = {{"rays", int64_t{64}}, {"positions", int64_t{290}}};
+  const scene::Scene here = makeScene("resting_sphere"),
+                     there = makeScene("resting_sphere", {{"offset", 1e5}});
+  const Image first = render(here, kField, given, kSizePx).product;
+  EXPECT_EQ(meanDifference(first, render(here, kField, given, kSizePx).product), 0.0);
+  // 1e5 diagonals away coordinates are known to 1e5 2^-53 of one: rays at the border of a texel may fall to
+  // either side.
+  EXPECT_LT(meanDifference(first, render(there, kField, given, kSizePx).product), 1e-3);
+}
+
+}  // namespace
+}  // namespace limen::techniques
