@@ -129,7 +129,7 @@ void main() {
     float covered = 0.0, keptShare = 0.0;
     for (int i = 0; i < keptCount; ++i) {
 #ifdef MASKED
-      iterations += 26 + (1 + OVERLAP_CORNERS) * kConeMaskPoints;
+      iterations += 26 + OVERLAP_CORNERS + kConeMaskPoints;
 #else
       iterations += 26;
 #endif
