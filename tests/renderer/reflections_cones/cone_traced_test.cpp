@@ -35,14 +35,14 @@ scene::Scene ballAbove(const scene::Material& mirror, double ball) {
   scene::Scene scene;
   scene::addPart(scene, scene::planeGrid(glm::dvec3(0.0), 0.2, 0.2, 2), mirror);
   const glm::dvec3 middle = 4.0 * glm::normalize(glm::dvec3(0.0, 1.0, -1.0));
-  scene::addPart(scene, "ball", scene::sphere(middle, 4.0 * std::sin(ball), 4), glm::vec3(1.0F));
+  scene::addPart(scene, "ball", scene::sphere(middle, 4.0 * std::sin(ball), 5), glm::vec3(1.0F));
   scene::setStillCamera(scene, {glm::dvec3(0.0, 1.0, 1.0), glm::dvec3(0.0), {0.0, 1.0, 0.0}, 0.5});
   return scene;
 }
 
 /// A ball that is seen at an angle b fills (tan b / tan a)^2 of a cone of half-angle a. The
 /// pixel's own angle of 0.0025 widens a by less than 0.9 % of itself, and moves the eye's cone to a footprint
-/// of 0.004 of 4 units: 3 % of the share together; a border of 16 edges takes 3 % of a disk, and corners that
+/// of 0.004 of 4 units: 3 % of the share together; a border of 20 edges takes 2 % of a disk, and corners that
 /// lie on the ball but not on its border as much again. Blended until the cone is full, the far side counts
 /// as well: twice the share.
 TEST_F(ConeTraced, ABallInAConeHasTwiceTheShareOfItsDisk) {
