@@ -91,9 +91,10 @@ BeamShare shareOf(Beam beam, vec3 a, vec3 b, vec3 c, float tolerance) {
   const vec3 normal = cross((q - p) * unit, (r - p) * unit);
   const float level = dot(normal, p - vec3(beam.radius * found.yz, 0.0));
   const float along = level / dot(normal, vec3(beam.growth * found.yz, 1.0));
-  // Of a triangle seen edge-on the quotient means nothing; a NaN becomes the nearest.
+  // Of a triangle seen edge-on the quotient means nothing.
   const float least = max(nearest, 0.0);
-  return BeamShare(min(found.x / (3.14159265 * beam.share), 1.0), found.yz, along > least ? min(along, farthest_) : least);
+  return BeamShare(min(found.x / (3.14159265 * beam.share), 1.0), found.yz,
+                   isnan(along) ? least : clamp(along, least, farthest_));
 }
 
 // The beam's ray through a point of the disk, at a distance along the axis.

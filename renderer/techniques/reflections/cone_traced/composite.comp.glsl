@@ -107,8 +107,7 @@ void main() {
     const uvec3 own = sceneTriangle(id);
     vec3 normal = planeNormal(scenePosition(own.x), scenePosition(own.y), scenePosition(own.z));
     if (dot(normal, direction.xyz) < 0.0) normal = -normal;
-    // Written so that a NaN takes the axis.
-    if (!(dot(normal, normal) > 0.5)) normal = direction.xyz;
+    if (isnan(dot(normal, normal)) || isinf(dot(normal, normal))) normal = direction.xyz;
     const Beam beam = beamOf(origin, direction, normal);
     if (farRadius > 0.0) farthest = max(farRadius - beam.radius, 0.0) / max(beam.growth, 1e-30);
     const ivec2 at = pixel >> int(leafLevel);
@@ -130,7 +129,7 @@ void main() {
     float covered = 0.0, keptShare = 0.0;
     for (int i = 0; i < keptCount; ++i) {
 #ifdef MASKED
-      iterations += 26 + (1 + OVERLAP_CORNERS) * kConeMaskPoints;
+      iterations += 26 + OVERLAP_CORNERS + kConeMaskPoints;
 #else
       iterations += 26;
 #endif

@@ -69,7 +69,9 @@ const SettingsTable<ConeTracedSettings>& ConeTracedSettings::table() {
       {&S::contribution, "contribution",
        "What a triangle contributes: the share that it fills, or by a table", "Roger 2008, section 5.2.3"},
       {&S::coverage, "coverage",
-       "What hides what within a cone: whatever is nearer until it is full, or a mask of its area",
+       "What hides what within a cone: whatever is nearer until it is full, or a mask of 64 places, which "
+       "knows "
+       "triangles that hold one",
        "saturated in Roger 2008, section 5.2.4; the mask is the bench's own"},
       {&S::fill, "fill", "What a cone shows where nothing covers it", "Roger 2008, section 5.2.4"},
       {&S::backEnd, "back_end", "How the nearest triangles of a cone are found and blended",

@@ -37,8 +37,11 @@ float meanCurvature(uint id, vec3 point) {
   const vec3 weights = barycentrics(a, b, c, point);
   const vec3 normal = weights.x * n0 + weights.y * n1 + weights.z * n2;
   const float divisor = 2.0 * length(normal) * dot(alongU, cross(alongV, normal));
+  // Vertices without a normal, triangles without area.
+  if (divisor == 0.0) return 0.0;
   const float found = (dot(normalU, cross(alongV, normal)) + dot(alongU, cross(normalV, normal))) / divisor * unit;
-  if (!(abs(found) < 1.0e30)) return 0.0;
+  // Asked outright: a compiler may turn a comparison round, and what was false for a NaN is true then.
+  if (isnan(found) || isinf(found)) return 0.0;
   // That side of the stored normals which the viewer is on, by the triangle as in sidedNormal().
   return dot(cross(alongU, alongV), eye - point) < 0.0 ? -found : found;
 #else
@@ -112,9 +115,9 @@ void main() {
     const float gloss = glossScale * surfaceMaterials[surfaceMaterialOf[id]].glossRad;
     bool missed;
     const float found = reflectedHalfAngle(apart, max(mirrored.w, 1e-4), meanCurvature(id, ray.xyz), halfAngle, missed);
-    const float reflected = abs(found);
+    const float reflected = isnan(found) || isinf(found) ? halfAngle : abs(found);
     float whole = reflected + gloss;
-    const bool clamped = !(whole < widest);
+    const bool clamped = isnan(whole) || whole >= widest;
     if (clamped) whole = widest;
     origin = vec4(ray.xyz, apart * tan(halfAngle));
     direction = vec4(mirrored.xyz, tan(whole));

@@ -25,21 +25,20 @@ uvec2 maskCovered = uvec2(0u);
 
 // Points of the mask in the polygon of the last overlap.
 uvec2 maskOfPolygon() {
-  uvec2 mask = uvec2(0u);
+  // Signed distances from the edges, on the inner side by the polygon's turn; 0 where there are fewer edges.
+  vec3 sides[OVERLAP_CORNERS];
   float turn = 0.0;
   for (int i = 0; i < OVERLAP_CORNERS; ++i) {
-    if (i >= beamCorners) break;
-    turn += cross2(beamPolygon[i], beamPolygon[i + 1 < beamCorners ? i + 1 : 0]);
+    const vec2 p = beamPolygon[i], q = beamPolygon[i + 1 < beamCorners ? i + 1 : 0], edge = q - p;
+    sides[i] = i < beamCorners ? vec3(-edge.y, edge.x, -cross2(edge, p)) : vec3(0.0);
+    turn += i < beamCorners ? cross2(p, q) : 0.0;
   }
+  uvec2 mask = uvec2(0u);
   for (int k = 0; k < kConeMaskPoints; ++k) {
-    const vec2 at = texelFetch(maskPoints, ivec2(k, 0), 0).xy;
-    bool inside = true;
-    for (int i = 0; i < OVERLAP_CORNERS; ++i) {
-      if (i >= beamCorners) break;
-      const vec2 p = beamPolygon[i], q = beamPolygon[i + 1 < beamCorners ? i + 1 : 0];
-      if (cross2(q - p, at - p) * turn < 0.0) inside = false;
-    }
-    if (inside) mask[k >> 5] |= 1u << (k & 31);
+    const vec3 at = vec3(texelFetch(maskPoints, ivec2(k, 0), 0).xy, 1.0) * (turn < 0.0 ? -1.0 : 1.0);
+    const float least = min(min(dot(sides[0], at), dot(sides[1], at)),
+                            min(dot(sides[2], at), min(dot(sides[3], at), dot(sides[4], at))));
+    if (least >= 0.0) mask[k >> 5] |= 1u << (k & 31);
   }
   return mask;
 }
