@@ -211,9 +211,14 @@ Met march(ScreenRay ray, ivec2 own) {
         return met;
       }
       if (givesUp()) return met;
-    } else if (min(a, b) < texelFetch(pyramid, cell, level - 1).x) {
-      --level;
-      continue;
+    } else {
+      const float nearest = texelFetch(pyramid, cell, level - 1).x;
+      if (min(a, b) < nearest) {
+        // In front of all of the cell up to there.
+        if (a > nearest) u = clamp((nearest - ray.depth) / ray.depthAlong, u, next);
+        --level;
+        continue;
+      }
     }
     u = next;
     level = min(level + 1, coarsest);

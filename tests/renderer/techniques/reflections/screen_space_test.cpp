@@ -338,7 +338,7 @@ TEST_F(ScreenSpace, RaysThatAreGivenUpBringNothing) {
     const Rendered followed = of("follow"), givenUp = of("give_up");
     size_t lost = 0;
     for (size_t i = 0; i < followed.product.pixels(); ++i) {
-      const auto at = [&](const Rendered& of, size_t c) { return of.product.data[4 * i + c]; };
+      const auto at = [&](const Rendered& rendered, size_t c) { return rendered.product.data[4 * i + c]; };
       if (at(followed, 0) == at(givenUp, 0) && at(followed, 1) == at(givenUp, 1)) continue;
       ++lost;
       for (size_t c = 0; c < 3; ++c) ASSERT_EQ(at(givenUp, c), 0.0F) << march << " pixel " << i;
