@@ -24,11 +24,8 @@ uint interleaved(uvec3 v) { return spread(v.x) << 2 | spread(v.y) << 1 | spread(
 
 uvec2 codeOf(vec3 centre) {
   // In double precision no extent overflows.
-  dvec3 low, high;
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = double(numberOf(~control.low[axis]));
-    high[axis] = double(numberOf(control.high[axis]));
-  }
+  const dvec3 low = dvec3(numberOf(~control.low[0]), numberOf(~control.low[1]), numberOf(~control.low[2]));
+  const dvec3 high = dvec3(numberOf(control.high[0]), numberOf(control.high[1]), numberOf(control.high[2]));
   const dvec3 extents = high - low;
   const double extent = max(extents.x, max(extents.y, extents.z));
   const uint most = (1u << uint(AXIS_BITS)) - 1u;

@@ -143,8 +143,8 @@ void writeNode(uint wide, uint level) {
   const uint firstNode = inner > 0u ? atomicAdd(control.nodes, inner) : 0u;
   const uint firstTriangle = triangles > 0u ? atomicAdd(control.triangles, triangles) : 0u;
 
-  ivec3 exponents;
-  for (int axis = 0; axis < 3; ++axis) exponents[axis] = gridExponent(low[axis], high[axis]);
+  const ivec3 exponents =
+      ivec3(gridExponent(low.x, high.x), gridExponent(low.y, high.y), gridExponent(low.z, high.z));
   uint innerMask = 0u, nextNode = firstNode, place = 0u;
   uint metas[2] = uint[2](0u, 0u);
   uint lows[3][2] = uint[3][2](uint[2](0u, 0u), uint[2](0u, 0u), uint[2](0u, 0u));

@@ -14,7 +14,7 @@ const std::vector<Module>& modules() {
       {"renderer/compute", {"experiments/base", "renderer/gl"}, true},
       {"renderer/surfaces", {"experiments/base"}, false},
       {"renderer/scene", {"experiments/base", "renderer/surfaces"}, false},
-      {"renderer/ray_tracing", {"experiments/base", "renderer/gl"}, true},
+      {"renderer/ray_tracing", {"experiments/base", "renderer/gl", "renderer/compute"}, true},
       {"renderer/visibility_fields",
        {"experiments/base", "renderer/gl", "renderer/ray_tracing", "renderer/scene"},
        true},
