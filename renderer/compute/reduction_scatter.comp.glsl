@@ -158,7 +158,7 @@ void writeTile(uint before, uint whole) {
 shared uint sharedWord;
 
 #ifdef LOOK_BACK
-const int kSpins = 4096;
+const int kSpins = 4096;  // of an invocation in all: none follow where groups run in another order
 const uint kNoDistance = 0xffffffffu;
 // Distances of the nearest tile whose sum includes all before it, and of the nearest that nobody has counted.
 shared uint nearestAll, nearestNothing;
@@ -188,7 +188,7 @@ void keepNearest(uint all, uint nothing) {
 uint countBefore(uint tile, uint count) {
   const uint me = gl_LocalInvocationIndex;
   uint sum = 0u;
-  int end = int(tile);
+  int end = int(tile), spins = kSpins;
   while (end > 0) {
     if (me == 0u) {
       nearestAll = kNoDistance;
@@ -204,7 +204,7 @@ uint countBefore(uint tile, uint count) {
     uint all = kNoDistance, nothing = kNoDistance;
     for (int i = kReductionLooks - 1; i >= 0; --i) {
       const int other = end - 1 - int(me) - i * kReductionGroup;
-      for (int spin = 0; spin < kSpins && theirs[i] == kReductionNothing; ++spin) theirs[i] = state[tilesAt + uint(other)];
+      for (; spins > 0 && theirs[i] == kReductionNothing; --spins) theirs[i] = state[tilesAt + uint(other)];
       const uint distance_ = me + uint(i * kReductionGroup);
       if (theirs[i] == kReductionNothing) nothing = distance_;
       if (theirs[i] >= kReductionAll) all = distance_;

@@ -146,6 +146,10 @@ const uint kResolveMeshDepthsBuffer = 5u;
 const uint kResolveMeshIdsBuffer = 6u;
 const uint kResolveMeshQueueBuffer = 7u;
 const uint kSurfacePictureImage = 0u;
+// In one pass, beside scene and surfaces; of these the attributes are left out.
+const uint kPictureGatheredBuffer = 4u;
+const uint kPictureVerticesBuffer = 6u;
+const uint kPictureIndicesBuffer = 7u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
 
 #ifdef __cplusplus

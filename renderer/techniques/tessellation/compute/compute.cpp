@@ -106,6 +106,7 @@ class ComputeTessellation : public Technique {
   }
 
   void render(frame::Frame& frame) override {
+    if (lists_) picture_->startMesh(frame);
     factors_->run(frame);
     {
       const auto scope = frame.passes().open("tessellation/scan");
@@ -128,7 +129,10 @@ class ComputeTessellation : public Technique {
     indices_->bindStorage(kIndicesBuffer);
     fill(frame, *verticesProgram_, "tessellation/vertices");
     if (copyProgram_) copySides(frame);
+    // Beside the vertices.
     fill(frame, *indicesProgram_, "tessellation/indices");
+    if (lists_) picture_->finishMesh(frame);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (trims_) {
       const int64_t most = 2 * int64_t{manyInvocations(frame.context())};
       trims_->run(frame, settings_.tessellation.cornerFix ? 1 : 0,
@@ -321,7 +325,6 @@ class ComputeTessellation : public Technique {
       program.dispatch({static_cast<int>(std::min<int64_t>(most, 2 * manyInvocations(frame.context()))), 1},
                        {kTessellationGroup, 1});
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
   void dispatchPatches(uint32_t perPatch) const {
@@ -333,6 +336,7 @@ class ComputeTessellation : public Technique {
 
   void copySides(frame::Frame& frame) {
     const auto scope = frame.passes().open("tessellation/sides");
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
     dispatchPatches(4);
