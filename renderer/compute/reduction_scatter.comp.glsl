@@ -44,8 +44,8 @@ struct Piece {
   uint valid;
 };
 
-Piece pieceAt(uint tile, uint row, uint count) {
-  const uint first = tile * kPerTile + row * kPerRow + ownPlace() * kPerVector;
+Piece pieceAt(uint tile, uint row, uint place, uint count) {
+  const uint first = tile * kPerTile + row * kPerRow + place * kPerVector;
   Piece piece = Piece(uvec4(0u), 0u);
   if (first >= count) return piece;
   piece.items = items[first / kPerVector];
@@ -129,7 +129,7 @@ uint tileSlots(in Piece pieces[kReductionRows], out uint slots[kReductionRows]) 
 #endif
 
 void readTile(uint tile, uint count, out Piece pieces[kReductionRows]) {
-  for (int row = 0; row < kReductionRows; ++row) pieces[row] = pieceAt(tile, uint(row), count);
+  for (int row = 0; row < kReductionRows; ++row) pieces[row] = pieceAt(tile, uint(row), ownPlace(), count);
 }
 
 // The tile's valid items, so that neighbouring invocations write neighbouring places.
@@ -160,31 +160,65 @@ shared uint sharedWord;
 #ifdef LOOK_BACK
 const int kSpins = 4096;  // of an invocation in all: none follow where groups run in another order
 const uint kNoDistance = 0xffffffffu;
+#ifdef SUBGROUPS
+// Valid items of all tiles before `tile`; called by one subgroup.
+uint countBefore(uint tile, uint count) {
+  const uint lane = gl_SubgroupInvocationID;
+  uint sum = 0u;
+  int end = int(tile), spins = kSpins;
+  while (end > 0) {
+    uint theirs[kReductionLooks];
+    for (int i = 0; i < kReductionLooks; ++i) {
+      const int other = end - 1 - int(lane) - 32 * i;
+      theirs[i] = other < 0 ? kReductionOwn : state[tilesAt + uint(other)];
+    }
+    uint all, nothing;
+    while (true) {
+      all = kNoDistance;
+      nothing = kNoDistance;
+      for (int i = kReductionLooks - 1; i >= 0; --i) {
+        if (theirs[i] == kReductionNothing) nothing = lane + uint(32 * i);
+        if (theirs[i] >= kReductionAll) all = lane + uint(32 * i);
+      }
+      all = subgroupMin(all);
+      nothing = subgroupMin(nothing);
+      if (all <= nothing || spins-- <= 0) break;
+      for (int i = 0; i < kReductionLooks; ++i)
+        if (theirs[i] == kReductionNothing) theirs[i] = state[tilesAt + uint(end - 1 - int(lane) - 32 * i)];
+    }
+    uint own = 0u;
+    for (int i = 0; i < kReductionLooks; ++i) {
+      const uint distance_ = lane + uint(32 * i);
+      if (distance_ <= all && distance_ < nothing) own += theirs[i] & kReductionCountMask;
+    }
+    sum += subgroupAdd(own);
+    if (all < nothing) break;
+    if (nothing == kNoDistance) {
+      end -= 32 * kReductionLooks;
+      continue;
+    }
+    // Whoever holds that tile may never run on while this group waits: its tile is added up here.
+    end -= int(nothing) + 1;
+    spins = 0;
+    uint valid = 0u;
+    for (uint row = 0u; row < uint(kReductionRows); ++row)
+      for (uint place = lane; place < uint(kReductionGroup); place += 32u)
+        valid += bitCount(pieceAt(uint(end), row, place, count).valid);
+    sum += subgroupAdd(valid);
+  }
+  return sum;
+}
+#else
 // Distances of the nearest tile whose sum includes all before it, and of the nearest that nobody has counted.
 shared uint nearestAll, nearestNothing;
 
 uint sumOfGroup(uint own) {
-#ifdef SUBGROUPS
-  own = subgroupAdd(own);
-  if (gl_SubgroupInvocationID == 0u)
-#endif
-    atomicAdd(sharedWord, own);
+  atomicAdd(sharedWord, own);
   barrier();
   return sharedWord;
 }
 
-void keepNearest(uint all, uint nothing) {
-#ifdef SUBGROUPS
-  all = subgroupMin(all);
-  nothing = subgroupMin(nothing);
-  if (gl_SubgroupInvocationID != 0u) return;
-#endif
-  if (all != kNoDistance) atomicMin(nearestAll, all);
-  if (nothing != kNoDistance) atomicMin(nearestNothing, nothing);
-}
-
-// Valid items of all tiles before `tile`; called by the whole group. Looks back at kReductionLooks tiles an invocation together:
-// on a GPU that runs as many groups at once, all that have no sum of their predecessors yet.
+// Valid items of all tiles before `tile`; called by the whole group.
 uint countBefore(uint tile, uint count) {
   const uint me = gl_LocalInvocationIndex;
   uint sum = 0u;
@@ -209,7 +243,8 @@ uint countBefore(uint tile, uint count) {
       if (theirs[i] == kReductionNothing) nothing = distance_;
       if (theirs[i] >= kReductionAll) all = distance_;
     }
-    keepNearest(all, nothing);
+    if (all != kNoDistance) atomicMin(nearestAll, all);
+    if (nothing != kNoDistance) atomicMin(nearestNothing, nothing);
     barrier();
     const uint farthestTaken = min(nearestAll, nearestNothing - 1u);  // before any: all
     uint own = 0u;
@@ -229,12 +264,13 @@ uint countBefore(uint tile, uint count) {
     if (me == 0u) sharedWord = 0u;
     barrier();
     uint valid = 0u;
-    for (int row = 0; row < kReductionRows; ++row) valid += bitCount(pieceAt(uint(end), uint(row), count).valid);
+    for (int row = 0; row < kReductionRows; ++row) valid += bitCount(pieceAt(uint(end), uint(row), ownPlace(), count).valid);
     sum += sumOfGroup(valid);
     barrier();
   }
   return sum;
 }
+#endif
 #endif
 
 #ifdef APPEND
@@ -288,7 +324,16 @@ void main() {
 #if defined(LOOK_BACK)
     if (me == 0u) state[tilesAt + tile] = whole | (tile == 0u ? kReductionAll : kReductionOwn);
     packTile(pieces, slots);
+#ifdef SUBGROUPS
+    if (gl_SubgroupID == 0u) {
+      const uint found = countBefore(tile, count);
+      if (gl_SubgroupInvocationID == 0u) sharedWord = found;
+    }
+    barrier();
+    const uint before = sharedWord;
+#else
     const uint before = countBefore(tile, count);
+#endif
     if (me == 0u && tile > 0u) state[tilesAt + tile] = (before + whole) | kReductionAll;
     if (me == 0u && tile + 1u == tileCount) finishCount(before + whole);
 #elif defined(APPEND)

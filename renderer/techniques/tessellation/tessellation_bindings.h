@@ -13,6 +13,7 @@ using glm::vec4;
 #endif
 
 const int kTessellationGroup = 64;
+const int kFewPatches = 1024;  // of which one group makes counts and offsets
 const int kMostSegments = 64;                  // of a side
 const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
