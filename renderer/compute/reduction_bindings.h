@@ -60,6 +60,8 @@ const uint kScanToBuffer = 3u;
 // Words before the tiles' states.
 const uint kReductionFinished = 0u;
 const uint kReductionTotal = 1u;
+const uint kReductionStarted = 2u;  // groups of LOOK_BACK, in dispatches that take turns
+const uint kReductionStartedOdd = 3u;
 const uint kReductionTiles = 4u;
 
 #ifdef __cplusplus

@@ -292,10 +292,20 @@ void finishGroup() {
 
 void main() {
   const uint me = gl_LocalInvocationIndex;
-  const uint count = itemCount(), tile = groupNumber();
+#ifdef LOOK_BACK
+  // Tiles in the order in which groups start: those that others wait for are under way.
+  const bool odd = tilesAt != kReductionTiles;
+  if (me == 0u) sharedWord = atomicAdd(state[odd ? kReductionStartedOdd : kReductionStarted], 1u);
+  barrier();
+  const uint tile = sharedWord;
+#else
+  const uint tile = groupNumber();
+#endif
+  const uint count = itemCount();
   const uint tileCount = max((count + kPerTile - 1u) / kPerTile, 1u);
 #ifdef LOOK_BACK
   // Dispatches take turns with two sets of states: each clears the other one's.
+  if (tile == 0u && me == 0u) state[odd ? kReductionStarted : kReductionStartedOdd] = 0u;
   for (uint i = tile * uint(kReductionGroup) + me; i < tilesAtMost;
        i += gl_NumWorkGroups.x * gl_NumWorkGroups.y * uint(kReductionGroup))
     state[clearedAt + i] = kReductionNothing;
