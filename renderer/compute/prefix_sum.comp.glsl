@@ -20,10 +20,9 @@ layout(std430, binding = kScanSumsBuffer) writeonly buffer Sums { uvec4 sums[]; 
 #ifdef LOOK_BACK
 // Of each tile its own sum, then the sum of all up to it.
 layout(std430, binding = kScanTilesBuffer) coherent volatile buffer Tiles { ELEMENT tileSums[]; };
-layout(std430, binding = kScanStateBuffer) coherent volatile buffer State {
-  uint started;
-  uint tileState[];
-};
+layout(std430, binding = kScanStateBuffer) coherent volatile buffer State { uint tileState[]; };
+// Dispatches take turns with two sets of states: each clears the other one's.
+uniform uint statesAt, clearedAt, statesAtMost;
 #else
 layout(std430, binding = kScanTilesBuffer) buffer Tiles { ELEMENT tileSums[]; };
 #endif
@@ -118,16 +117,15 @@ void store(uint tile, uint row, uvec4 own, ELEMENT before) {
 #endif
 
 #ifdef LOOK_BACK
-shared uint sharedTile;
 shared uint windowState[kScanWindow];
 shared ELEMENT windowSums[kScanWindow];
-const int kSpins = 4096;
+const int kSpins = 4096;  // of an invocation in all: none follow where groups run in another order
 
 // Sum of all tiles before `tile`; called by the whole group.
 ELEMENT sumBefore(uint tile) {
   const uint me = gl_LocalInvocationIndex;
   ELEMENT sum = ELEMENT(0u);
-  int end = int(tile);
+  int end = int(tile), spins = kSpins;
   while (end > 0) {
     if (me < uint(kScanWindow)) {
       const int other = end - 1 - int(me);
@@ -135,7 +133,7 @@ ELEMENT sumBefore(uint tile) {
       ELEMENT theirs = ELEMENT(0u);
       if (other >= 0) {
         state = kScanTileNothing;
-        for (int spin = 0; spin < kSpins && state == kScanTileNothing; ++spin) state = tileState[other];
+        for (; spins > 0 && state == kScanTileNothing; --spins) state = tileState[statesAt + uint(other)];
         memoryBarrierBuffer();
         if (state != kScanTileNothing) theirs = tileSums[2 * other + (state == kScanTileAll ? 1 : 0)];
       }
@@ -165,12 +163,10 @@ ELEMENT sumBefore(uint tile) {
 
 void main() {
   const uint me = gl_LocalInvocationIndex;
-#ifdef LOOK_BACK
-  if (me == 0u) sharedTile = atomicAdd(started, 1u);
-  barrier();
-  const uint tile = sharedTile;
-#else
   const uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+#ifdef LOOK_BACK
+  for (uint i = tile * uint(kScanGroup) + me; i < statesAtMost; i += gl_NumWorkGroups.x * gl_NumWorkGroups.y * uint(kScanGroup))
+    tileState[clearedAt + i] = kScanTileNothing;
 #endif
   if (tile >= tileCount) return;
 
@@ -210,7 +206,7 @@ void main() {
   if (me == 0u) {
     tileSums[2u * tile + (tile == 0u ? 1u : 0u)] = whole;
     memoryBarrierBuffer();
-    tileState[tile] = tile == 0u ? kScanTileAll : kScanTileOwn;
+    tileState[statesAt + tile] = tile == 0u ? kScanTileAll : kScanTileOwn;
   }
   ELEMENT before = ELEMENT(0u);
   if (tile > 0u) {
@@ -218,7 +214,7 @@ void main() {
     if (me == 0u) {
       tileSums[2u * tile + 1u] = added(before, whole);
       memoryBarrierBuffer();
-      tileState[tile] = kScanTileAll;
+      tileState[statesAt + tile] = kScanTileAll;
     }
   }
 #elif defined(ALONE)

@@ -30,9 +30,10 @@ PrefixSum::PrefixSum(gl::Context& context, uint32_t capacity, int lanes, ScanFor
       lanes_(lanes),
       capacity_(capacity),
       tiles_(int64_t{tileCount(capacity, lanes)} * 2 * 4 * lanes, nullptr),
-      // The number of the next tile to be started, then the state of each.
-      state_((int64_t{tileCount(capacity, lanes)} + 1) * 4, nullptr) {
+      // Twice the state of each tile. Each dispatch leaves cleared what the next one needs so.
+      state_(int64_t{tileCount(capacity, lanes)} * 2 * 4, nullptr) {
   assert(lanes == 1 || lanes == 2);
+  state_.clearUint(kScanTileNothing);
   const auto program = [&](const char* stage) {
     return &context.programs().compute(kPath, {{stage, "1"}, {"LANES", std::to_string(lanes)}});
   };
@@ -69,7 +70,11 @@ void PrefixSum::run(const gl::Buffer& values, const gl::Buffer& sums, uint32_t c
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     dispatch(*alone_, 1);
   } else if (form_ == ScanForm::LookBack) {
-    state_.clearUint(kScanTileNothing);
+    const uint32_t most = tilesOf(capacity_);
+    first_->set("statesAtMost", most);
+    first_->set("statesAt", odd_ ? most : 0);
+    first_->set("clearedAt", odd_ ? 0 : most);
+    odd_ = !odd_;
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     dispatch(*first_, tiles);
   } else {

@@ -52,6 +52,7 @@ class PrefixSum {
   uint32_t capacity_;
   const gl::Program *first_ = nullptr, *second_ = nullptr, *third_ = nullptr, *alone_ = nullptr;
   gl::Buffer tiles_, state_;
+  mutable bool odd_ = false;  // looks back so far
 };
 
 }  // namespace limen::compute

@@ -45,7 +45,7 @@ const uint kReductionCountUnit = 2u;
 // Scatter and append: a group takes a tile of kReductionRows rows of kReductionGroup x 16 bytes.
 const int kReductionGroup = 256;
 const int kReductionRows = 4;
-const int kReductionWindow = 32;  // tiles that a group looks back at together
+const int kReductionLooks = 4;  // tiles that each invocation of a group looks back at together
 // A tile's state: a count in the low bits.
 const uint kReductionNothing = 0u;
 const uint kReductionOwn = 0x40000000u;  // the tile's own count
@@ -58,9 +58,10 @@ const uint kScanOutBuffer = 1u;
 const uint kScanFromBuffer = 2u;
 const uint kScanToBuffer = 3u;
 // Words before the tiles' states.
-const uint kReductionStarted = 0u;
-const uint kReductionFinished = 1u;
-const uint kReductionTotal = 2u;
+const uint kReductionFinished = 0u;
+const uint kReductionTotal = 1u;
+const uint kReductionStarted = 2u;  // groups of LOOK_BACK, in dispatches that take turns
+const uint kReductionStartedOdd = 3u;
 const uint kReductionTiles = 4u;
 
 #ifdef __cplusplus

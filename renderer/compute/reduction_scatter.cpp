@@ -6,16 +6,30 @@
 namespace limen::compute {
 namespace {
 
+/// Of 32 invocations that can add up and shuffle.
+bool hasSubgroups() {
+  if (!epoxy_has_gl_extension("GL_KHR_shader_subgroup")) return false;
+  constexpr GLint kNeeded = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR |
+                            GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
+  GLint size = 0, stages = 0, features = 0;
+  glGetIntegerv(GL_SUBGROUP_SIZE_KHR, &size);
+  glGetIntegerv(GL_SUBGROUP_SUPPORTED_STAGES_KHR, &stages);
+  glGetIntegerv(GL_SUBGROUP_SUPPORTED_FEATURES_KHR, &features);
+  return size == 32 && (stages & GL_COMPUTE_SHADER_BIT) != 0 && (features & kNeeded) == kNeeded;
+}
+
 class ScatterForm : public StreamReduction::BackEnd {
  public:
   ScatterForm(gl::Context& context, uint32_t most, const ReductionSettings& settings, ReductionForm form)
       : perTile_(static_cast<uint32_t>(kReductionGroup * kReductionRows * 4 / settings.lanes)),
-        state_((int64_t{tilesOf(most)} + kReductionTiles) * 4, nullptr) {
-    // Each dispatch leaves it cleared.
+        tilesAtMost_(tilesOf(most)),
+        state_((2 * int64_t{tilesAtMost_} + kReductionTiles) * 4, nullptr) {
+    // Each dispatch leaves cleared what the next one needs so.
     state_.clearUint(kReductionNothing);
     const auto program = [&](const char* stage) {
       gl::ShaderDefines defines = reductionDefines(settings);
       defines[stage] = "1";
+      if (hasSubgroups()) defines["SUBGROUPS"] = "1";
       return &context.programs().compute("renderer/compute/reduction_scatter.comp.glsl", defines);
     };
     if (form == ReductionForm::ScanScatter) {
@@ -39,6 +53,10 @@ class ScatterForm : public StreamReduction::BackEnd {
     const uint32_t tiles = tilesOf(in.most);
     dispatch(first_, tiles);
     dispatch(tiles_, 1);
+    last_->set("tilesAtMost", tilesAtMost_);
+    last_->set("tilesAt", kReductionTiles + (odd_ ? tilesAtMost_ : 0));
+    last_->set("clearedAt", kReductionTiles + (odd_ ? 0 : tilesAtMost_));
+    odd_ = !odd_;
     dispatch(last_, tiles);
   }
 
@@ -48,7 +66,8 @@ class ScatterForm : public StreamReduction::BackEnd {
   /// At least one, which writes the count.
   uint32_t tilesOf(uint32_t items) const { return items == 0 ? 1 : (items - 1) / perTile_ + 1; }
 
-  uint32_t perTile_;
+  uint32_t perTile_, tilesAtMost_;
+  mutable bool odd_ = false;  // dispatches so far
   const gl::Program *first_ = nullptr, *tiles_ = nullptr, *last_ = nullptr;
   gl::Buffer state_;
 };

@@ -4,7 +4,7 @@
 // others are queued in bands of rows. LISTED: triangles whose number only the GPU knows; FEW_LANES and FEW_PIXELS if they are few. With LARGE: the queue, a group a band. REGIONS: several rectangles in one buffer, each with
 // triangles of its own; see region_raster.h. SAMPLES: instead of pixels' centres, the samples of pixels that may see several
 // triangles; see sample_raster.h. MARKED: of pixels that are listed already. KEEP: lists the small triangles that reach into
-// marked tiles and queues the others; KEPT: these small triangles alone. PACKED: depth and index at once, in 64 bits.
+// marked tiles and queues the others; KEPT: these small triangles alone. PACKED: depth and index at once, in 64 bits; SHARES: beside another scene's triangles.
 #ifdef PACKED
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
@@ -238,7 +238,11 @@ void shade(Triangle t, uint index, ivec2 pixel) {
   const uint bits = floatBitsToUint(depth);  // positive floats are ordered as their bits
   const int at = placeOf(pixel);
 #if defined(PACKED)
+#ifdef SHARES
+  atomicMax(nearest[at], packUint2x32(uvec2(~(index | kSharedRasterTag), bits)));
+#else
   atomicMax(nearest[at], packUint2x32(uvec2(~index, bits)));
+#endif
 #elif defined(IDS) && defined(REGIONS)
   if (depths[at] == bits) atomicMax(ids[at + 1], ~index);
 #elif defined(IDS)

@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cassert>
+
 #include "renderer/frame/frame_bindings.h"
 
 namespace limen::frame {
@@ -10,6 +12,7 @@ namespace {
 
 /// Capacity for row bands of large triangles; any more are rasterised on the spot, one invocation each.
 constexpr int kQueueCapacity = 1 << 19;
+constexpr int64_t kQueueBytes = int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8;
 constexpr uint32_t kNoTriangle = 0xffffffffU;
 constexpr int kLargeGroups = 4096;
 /// That take one listed triangle after another: twice what an NVIDIA H200 runs at once. Only the GPU knows
@@ -28,6 +31,11 @@ Sharing sharingOf(uint32_t triangles, glm::ivec2 sizePx) {
   return int64_t{kShared.lanes} * triangles <= int64_t{2} * sizePx.x * sizePx.y ? kShared : kAlone;
 }
 
+int64_t storageAligned(int64_t bytes) {
+  return (bytes + gl::Buffer::kStorageAlignment - 1) / gl::Buffer::kStorageAlignment *
+         gl::Buffer::kStorageAlignment;
+}
+
 /// What a pass over the triangles gathers.
 enum class Gathers { Depths, Ids, Packed };
 
@@ -39,6 +47,7 @@ const gl::Program& program(gl::Context& context, bool large, Gathers gathers,
   if (large) defines["LARGE"] = "1";
   if (gathers == Gathers::Ids) defines["IDS"] = "1";
   if (gathers == Gathers::Packed) defines["PACKED"] = "1";
+  if (settings.sharesWith) defines["SHARES"] = "1";
   if (settings.peels) defines["PEEL"] = "1";
   if (settings.listedVertexWords > 0) {
     defines["LISTED"] = "1";
@@ -74,11 +83,17 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const Comp
       finish_(context.programs().compute("renderer/frame/compute_raster_finish.comp.glsl",
                                          finishDefines(settings.ids, packed_))),
       requeue_(context.programs().compute("renderer/frame/compute_raster_requeue.comp.glsl")),
-      queue_(int64_t{sizeof(RasterQueueHeader)} + int64_t{kQueueCapacity} * 8, nullptr),
-      depthBits_(int64_t{packed_ ? 8 : 4} * sizePx.x * sizePx.y, nullptr) {
+      queueAt_(settings.sharesWith ? settings.sharesWith->queueAt_ + storageAligned(kQueueBytes)
+                                   : storageAligned(int64_t{packed_ ? 8 : 4} * sizePx.x * sizePx.y)) {
+  assert(!settings.sharesWith || (packed_ && settings.sharesWith->packed_ && !settings.textures));
+  if (settings.sharesWith) {
+    pixels_ = settings.sharesWith->pixels_;
+    return;
+  }
   // Every frame leaves the buffers cleared for the next; the first needs them cleared too.
-  queue_.clearUint(0);
-  depthBits_.clearUint(0);
+  const int queues = packed_ && !settings.textures ? 2 : 1;
+  pixels_ = std::make_shared<gl::Buffer>(queueAt_ + queues * storageAligned(kQueueBytes), nullptr);
+  pixels_->clearUint(0);
   if (settings.textures) depth_.emplace(gl::Format::R32F, sizePx);
   if (!settings.ids) return;
   if (settings.textures) ids_.emplace(gl::Format::R32UI, sizePx);
@@ -86,7 +101,7 @@ ComputeRaster::ComputeRaster(gl::Context& context, glm::ivec2 sizePx, const Comp
   smallIds_ = {&program(context, false, Gathers::Ids, settings, kShared),
                &program(context, false, Gathers::Ids, settings, kAlone)};
   largeIds_ = &program(context, true, Gathers::Ids, settings, kShared);
-  idBits_.emplace(depthBits_.bytes(), nullptr);
+  idBits_.emplace(int64_t{4} * sizePx.x * sizePx.y, nullptr);
   idBits_->clearUint(kNoTriangle);
 }
 
@@ -96,16 +111,41 @@ bool ComputeRaster::canPack() {
 }
 
 int64_t ComputeRaster::bytes() const {
-  int64_t bytes = depthBits_.bytes() + queue_.bytes();
+  int64_t bytes = pixels_->bytes();
   for (const auto* texture : {&depth_, &ids_})
     if (*texture) bytes += (*texture)->bytes();
   return bytes + (idBits_ ? idBits_->bytes() : 0);
 }
 
 void ComputeRaster::bindGathered(const GatheredBindings& bindings) const {
-  depthBits_.bindStorage(bindings.depths);
+  pixels_->bindStorage(bindings.depths);
   if (idBits_) idBits_->bindStorage(bindings.ids);
-  queue_.bindStorage(bindings.queue);
+  pixels_->bindStorage(bindings.queue, queueAt_, kQueueBytes);
+}
+
+glm::uvec2 ComputeRaster::queuePlaces() const {
+  const auto first = static_cast<uint32_t>(queueAt_ / 8);
+  return {first, first + static_cast<uint32_t>(storageAligned(kQueueBytes) / 8)};
+}
+
+void ComputeRaster::bindTargets() const {
+  pixels_->bindStorage(kRasterQueueBuffer, queueAt_, kQueueBytes);
+  pixels_->bindStorage(kRasterDepthsBuffer);
+}
+
+template <class Action>
+void ComputeRaster::forAll(const Action& action) const {
+  for (const gl::Program* each :
+       {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_})
+    if (each) action(*each);
+}
+
+void ComputeRaster::setView(const glm::mat4& clip, double near) const {
+  forAll([&](const gl::Program& each) {
+    each.set("anchorToClip", clip);
+    each.set("near", static_cast<float>(near));
+    each.set("sizePx", sizePx_);
+  });
 }
 
 void ComputeRaster::dispatchSmall(const Programs& small, uint32_t triangleCount) const {
@@ -119,15 +159,8 @@ void ComputeRaster::dispatchSmall(const Programs& small, uint32_t triangleCount)
 
 template <class Small>
 void ComputeRaster::run(const glm::mat4& clip, double near, const Small& small) const {
-  queue_.bindStorage(kRasterQueueBuffer);
-  depthBits_.bindStorage(kRasterDepthsBuffer);
-  for (const gl::Program* each :
-       {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_}) {
-    if (!each) continue;
-    each->set("anchorToClip", clip);
-    each->set("near", static_cast<float>(near));
-    each->set("sizePx", sizePx_);
-  }
+  bindTargets();
+  setView(clip, near);
   const auto pass = [&](const Programs& programs, const gl::Program& large) {
     small(programs);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -152,29 +185,58 @@ void ComputeRaster::finish() const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
-                         const DepthPeel& peel) const {
+void ComputeRaster::setTriangles(const Geometry& geometry, const DepthPeel& peel) const {
   geometry.bindStorage();
   if (geometry.ranges) geometry.ranges->ranges().bindStorage(kRasterRangesBuffer);
   if (peel.previous) peel.previous->bindTexture(kRasterPreviousDepthUnit);
-  for (const gl::Program* each :
-       {smallDepth_[0], smallDepth_[1], &largeDepth_, smallIds_[0], smallIds_[1], largeIds_}) {
-    if (!each) continue;
-    each->set("peelBias", static_cast<float>(peel.bias));
-    each->set("triangleCount", geometry.triangleCount());
-    each->set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
-  }
+  forAll([&](const gl::Program& each) {
+    each.set("peelBias", static_cast<float>(peel.bias));
+    each.set("triangleCount", geometry.triangleCount());
+    each.set("rangeCount", geometry.ranges ? geometry.ranges->rangeCount() : 0);
+  });
+}
+
+void ComputeRaster::draw(const Geometry& geometry, const glm::mat4& clip, double near,
+                         const DepthPeel& peel) const {
+  setTriangles(geometry, peel);
   run(clip, near, [&](const Programs& programs) { dispatchSmall(programs, geometry.triangleCount()); });
+}
+
+void ComputeRaster::drawStep(const Geometry& geometry, const glm::mat4& clip, double near, Step step) const {
+  assert(packed_ && !depth_);
+  setTriangles(geometry, {});
+  bindTargets();
+  setView(clip, near);
+  if (step == Step::Small)
+    dispatchSmall(smallDepth_, geometry.triangleCount());
+  else
+    largeDepth_.dispatch({kLargeGroups, 1}, {1, 1});
+}
+
+void ComputeRaster::dispatchListed(const gl::Program& program, const ListedTriangles& triangles) const {
+  program.dispatch({static_cast<int>(std::min(kShared.lanes * triangles.most, kListedInvocations)), 1},
+                   {kRasterGroup, 1});
 }
 
 void ComputeRaster::drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const {
   triangles.vertices.bindStorage(kScenePositionsBuffer);
   triangles.indices.bindStorage(kSceneIndicesBuffer);
   triangles.count.bindStorage(kRasterCountBuffer);
-  run(clip, near, [&](const Programs& programs) {
-    programs[1]->dispatch({static_cast<int>(std::min(kShared.lanes * triangles.most, kListedInvocations)), 1},
-                          {kRasterGroup, 1});
-  });
+  run(clip, near, [&](const Programs& programs) { dispatchListed(*programs[1], triangles); });
+}
+
+void ComputeRaster::drawListedStep(const ListedTriangles& triangles, const glm::mat4& clip, double near,
+                                   Step step) const {
+  assert(packed_ && !depth_);
+  triangles.vertices.bindStorage(kScenePositionsBuffer);
+  triangles.indices.bindStorage(kSceneIndicesBuffer);
+  triangles.count.bindStorage(kRasterCountBuffer);
+  bindTargets();
+  setView(clip, near);
+  if (step == Step::Small)
+    dispatchListed(*smallDepth_[1], triangles);
+  else
+    largeDepth_.dispatch({kLargeGroups, 1}, {1, 1});
 }
 
 }  // namespace limen::frame

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "experiments/base/enum_names.h"
@@ -48,6 +49,8 @@ enum class TriangleSearch {
   Packed      ///< at once, by atomic operations on depth and index in 64 bits; the same result
 };
 
+class ComputeRaster;
+
 struct ComputeRasterSettings {
   bool ids = false;    ///< which triangle each pixel sees as well
   bool peels = false;  ///< draw() is given what to peel off
@@ -57,6 +60,10 @@ struct ComputeRasterSettings {
   int listedVertexWords = 0;
   /// False: the caller's own pass reads what was gathered from the buffers, see bindGathered().
   bool textures = true;
+  /// Gathers into the pixels of another one in place of its own, both packed and without textures: of all
+  /// triangles each pixel sees the nearest, of the same depth the other one's, then the first. Its own
+  /// triangles' numbers have kSharedRasterTag. At most one shares with each.
+  const ComputeRaster* sharesWith = nullptr;
 };
 
 /// Rasterises a scene's triangles in compute shaders, into a depth image of near / z (reversed, 0: nothing)
@@ -79,6 +86,13 @@ class ComputeRaster {
   /// The host need not know how many there are. One invocation a triangle.
   void drawListed(const ListedTriangles& triangles, const glm::mat4& clip, double near) const;
 
+  /// draw() and drawListed() in two steps, for packed ones without textures that peel nothing. Neither issues
+  /// a barrier, so that other work runs beside them: the second step needs one for shader storage after the
+  /// first, and what reads the pixels one after the second.
+  enum class Step { Small, Large };
+  void drawStep(const Geometry& geometry, const glm::mat4& clip, double near, Step step) const;
+  void drawListedStep(const ListedTriangles& triangles, const glm::mat4& clip, double near, Step step) const;
+
   const gl::Texture& depth() const { return *depth_; }  ///< R32F
   const gl::Texture& ids() const { return *ids_; }      ///< R32UI
   /// For a pass in place of textures: it must leave depths and queue 0 and ids 0xffffffff, as it finds them
@@ -87,6 +101,10 @@ class ComputeRaster {
     uint32_t depths, ids, queue;  ///< `ids` is not bound if depth and index are packed
   };
   void bindGathered(const GatheredBindings& bindings) const;
+  /// Of packed ones: pixels and queues in one buffer of uvec2. The pass must leave 0 the pixels and, at both
+  /// places, the queues' headers.
+  void bindPixels(uint32_t binding) const { pixels_->bindStorage(binding); }
+  glm::uvec2 queuePlaces() const;
   bool packed() const { return packed_; }
   int64_t bytes() const;
   static bool canPack();  ///< of the current context
@@ -98,6 +116,12 @@ class ComputeRaster {
   template <class Small>
   void run(const glm::mat4& clip, double near, const Small& small) const;
   void dispatchSmall(const Programs& small, uint32_t triangleCount) const;
+  void dispatchListed(const gl::Program& program, const ListedTriangles& triangles) const;
+  void bindTargets() const;
+  void setView(const glm::mat4& clip, double near) const;
+  void setTriangles(const Geometry& geometry, const DepthPeel& peel) const;
+  template <class Action>
+  void forAll(const Action& action) const;
 
   void finish() const;
 
@@ -109,7 +133,9 @@ class ComputeRaster {
   const gl::Program &largeDepth_, &finish_, &requeue_;
   const gl::Program* largeIds_ = nullptr;
   std::optional<gl::Texture> depth_, ids_;
-  gl::Buffer queue_, depthBits_;  ///< packed: 64 bits a pixel
+  /// Depths, packed: 64 bits a pixel; behind them the queue, and that of one that shares the pixels.
+  std::shared_ptr<gl::Buffer> pixels_;
+  int64_t queueAt_;
   std::optional<gl::Buffer> idBits_;
 };
 

@@ -75,6 +75,7 @@ struct RasterCount {  // std430
 static_assert(sizeof(RasterCount) == 16);
 #endif
 const int kRasterGroup = 64;
+const uint kSharedRasterTag = 0x80000000u;  // in a triangle's number, where two rasters share their pixels
 const uint kRasterCountBuffer = 7u;
 const uint kRasterDepthsBuffer = 4u;
 const uint kRasterIdsBuffer = 5u;

@@ -25,6 +25,9 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 }
 
 void Buffer::bindStorage(uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+void Buffer::bindStorage(uint32_t binding, int64_t offset, int64_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id_, offset, bytes);
+}
 void Buffer::bindUniform(uint32_t binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
 
 void Buffer::clearUint(uint32_t value) const {
@@ -42,9 +45,9 @@ void Buffer::write(int64_t offset, int64_t bytes, const void* data) const {
 void Buffer::readBytes(int64_t offset, int64_t bytes, void* out) const {
   if (bytes <= 0) return;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  // From a copy: it seems that NVIDIA's driver moves buffers that the host reads into the host's memory, where
-  // shaders are slow to reach them. On an H200 the rounds of recursion/queues, whose counters are read after a
-  // frame, take a third of the time with copies.
+  // From a copy: it seems that NVIDIA's driver moves buffers that the host reads into the host's memory,
+  // where shaders are slow to reach them. On an H200 the rounds of recursion/queues, whose counters are read
+  // after a frame, take a third of the time with copies.
   const Buffer copy(bytes, nullptr);
   glCopyNamedBufferSubData(id_, copy.id_, offset, 0, bytes);
   glGetNamedBufferSubData(copy.id_, 0, bytes, out);

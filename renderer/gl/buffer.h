@@ -24,6 +24,9 @@ class Buffer {
   uint32_t id() const { return id_; }
   int64_t bytes() const { return bytes_; }
   void bindStorage(uint32_t binding) const;  ///< shader storage block
+  /// A part of it; `offset` is a multiple of kStorageAlignment.
+  void bindStorage(uint32_t binding, int64_t offset, int64_t bytes) const;
+  static constexpr int64_t kStorageAlignment = 256;  // that every implementation allows
   void bindUniform(uint32_t binding) const;
   void clearUint(uint32_t value) const;
   /// In submission order: work submitted earlier still sees the old contents. `bytes` > 0. Uses a copy on the

@@ -1,44 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phase 2: of a common side the larger factor; vertices and indices of each patch. See factor_pass.h.
-#include "renderer/surfaces/spacing.h"
-#include "renderer/techniques/tessellation/patches.glsl"
+#include "renderer/techniques/tessellation/counts_of_patch.glsl"
 
 layout(local_size_x = kTessellationGroup) in;
-layout(std430, binding = kOwnFactorsBuffer) readonly buffer OwnFactors { uvec2 ownFactors[]; };
-layout(std430, binding = kFactorsBuffer) writeonly buffer Factors { PatchFactors factors[]; };
 layout(std430, binding = kSlotCountsBuffer) writeonly buffer SlotCounts { uvec2 slotCounts[]; };
-
-uniform uint patchCount;
-uniform int cornerFix;
 
 void main() {
   const uint number = gl_GlobalInvocationID.x;
-  if (number >= patchCount) return;
-  const uvec2 own = ownFactors[number];
-  if (own == uvec2(0u)) {
-    factors[number] = PatchFactors(0u, 0u, 0u, 0u);
-    slotCounts[number] = uvec2(0u);
-    return;
-  }
-  const TessellatedPatch patch_ = patches[number];
-  ivec4 units = unpackedUnits(own);
-  for (int side = 0; side < 4; ++side) {
-    const int neighbour = patch_.neighbours[side];
-    if (neighbour >= 0) units[side] = max(units[side], unpackedUnits(ownFactors[neighbour / 8])[neighbour / 2 % 4]);
-  }
-  ivec4 mine;
-  for (int side = 0; side < 4; ++side) mine[side] = spacedSegments(SPACING, units[side]);
-  const uvec2 packed_ = packedUnits(units);
-  factors[number] = PatchFactors(packedSegments(mine), packed_.x, packed_.y, 0u);
-  PatternPlan plan;
-  if (isRectangle(shapeOf(patch_))) {
-    plan = rectanglePattern(mine, cornerFix);
-  } else {
-    plan = trianglePattern(mine, cornerFix);
-  }
-#ifdef LISTS
-  slotCounts[number] = uvec2(plan.vertices, plan.triangles);
-#else
-  slotCounts[number] = uvec2(plan.vertices, plan.indices);
-#endif
+  if (number < patchCount) slotCounts[number] = patchCounts(number);
 }

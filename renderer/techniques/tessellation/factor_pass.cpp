@@ -98,7 +98,7 @@ gl::ShaderDefines with(gl::ShaderDefines defines, const char* name, bool wanted 
   return defines;
 }
 
-gl::ShaderDefines countDefines(gl::ShaderDefines defines, bool lists, Spacing spacing) {
+gl::ShaderDefines countDefinesOf(gl::ShaderDefines defines, bool lists, Spacing spacing) {
   defines["SPACING"] = std::to_string(static_cast<int>(spacing));
   return with(std::move(defines), "LISTS", lists);
 }
@@ -111,10 +111,11 @@ FactorPass::FactorPass(frame::Frame& frame, const PatchBuffers& patches, const F
                        bool lists, Spacing spacing)
     : patches_(patches),
       settings_(settings),
+      countDefines_(countDefinesOf(patches.defines(), lists, spacing)),
       factorsProgram_(frame.context().programs().compute(
           kFactors, with(factorDefines(patches.defines(), settings), "BOUNDS_MADE", settings.precompute))),
       countsProgram_(frame.context().programs().compute("renderer/techniques/tessellation/counts.comp.glsl",
-                                                        countDefines(patches.defines(), lists, spacing))),
+                                                        countDefines_)),
       own_(int64_t{patches.count()} * 8, nullptr),
       factors_(int64_t{patches.count()} * int64_t{sizeof(PatchFactors)}, nullptr),
       counts_(compute::PrefixSum::bytesFor(patches.count(), 2), nullptr),
@@ -205,16 +206,18 @@ void FactorPass::movePoints(frame::Frame& frame) const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void FactorPass::run(frame::Frame& frame) const {
+void FactorPass::runFirst(frame::Frame& frame) const {
   patches_.bindStorage();
   if (moveProgram_) movePoints(frame);
   patches_.bindStorage();
   own_.bindStorage(kOwnFactorsBuffer);
   bounds_.bindStorage(kPatchBoundsBuffer);
-  {
-    const auto scope = frame.passes().open("tessellation/factors");
-    runFactors(frame, factorsProgram_);
-  }
+  const auto scope = frame.passes().open("tessellation/factors");
+  runFactors(frame, factorsProgram_);
+}
+
+void FactorPass::run(frame::Frame& frame) const {
+  runFirst(frame);
   const auto scope = frame.passes().open("tessellation/counts");
   factors_.bindStorage(kFactorsBuffer);
   counts_.bindStorage(kSlotCountsBuffer);

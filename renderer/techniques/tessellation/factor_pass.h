@@ -107,6 +107,9 @@ class FactorPass {
   /// Opens the passes tessellation/factors and tessellation/counts, and before them tessellation/motion,
   /// which moves the control points, where surfaces move. Ends with barriers for shader storage.
   void run(frame::Frame& frame) const;
+  /// All before tessellation/counts.
+  void runFirst(frame::Frame& frame) const;
+  gl::ShaderDefines countDefines() const { return countDefines_; }
 
   /// Patches whose bound asks for more segments than a side may have, or of which no bound is known: those
   /// may deviate by more than the tolerance. Computes the last frame's factors again and waits for the GPU.
@@ -127,6 +130,7 @@ class FactorPass {
   void dispatch(const gl::Program& program) const;
   void runFactors(frame::Frame& frame, const gl::Program& program) const;
 
+  gl::ShaderDefines countDefines_;
   const gl::Program &factorsProgram_, &countsProgram_;
   const gl::Program* moveProgram_ = nullptr;  // where surfaces move
   gl::Buffer own_, factors_, counts_, bounds_;

@@ -48,19 +48,29 @@ SurfacePicture::SurfacePicture(frame::Frame& frame, const frame::ShadedSetting& 
   if (raster == frame::Raster::Compute) {
     constexpr int kVertexWords = sizeof(TessellatedVertex) / sizeof(float);
     gl::Context& context = frame.context();
-    frame::ComputeRaster surface(context, frame.sizePx(),
-                                 {.ids = true, .listedVertexWords = kVertexWords, .textures = false});
     std::optional<frame::ComputeRaster> mesh;
+    if (mesh_.triangleCount() > 0)
+      mesh.emplace(context, frame.sizePx(), frame::ComputeRasterSettings{.ids = true, .textures = false});
+    const bool inOnePass = frame::ComputeRaster::canPack() && !frame.gpuScene().surface().hasAttributes();
+    frame::ComputeRaster surface(context, frame.sizePx(),
+                                 {.ids = true,
+                                  .listedVertexWords = kVertexWords,
+                                  .textures = false,
+                                  .sharesWith = inOnePass && mesh ? &*mesh : nullptr});
     gl::ShaderDefines defines;
     if (textured) defines["TEXTURED"] = "1";
     if (surface.packed()) defines["PACKED"] = "1";
-    if (mesh_.triangleCount() > 0) {
-      mesh.emplace(context, frame.sizePx(), frame::ComputeRasterSettings{.ids = true, .textures = false});
-      defines["MESH"] = "1";
-    }
+    if (mesh) defines["MESH"] = "1";
     const gl::Program& resolve =
         context.programs().compute("renderer/techniques/tessellation/surface_resolve.comp.glsl", defines);
-    compute_.emplace(Compute{resolve, std::move(mesh), std::move(surface)});
+    gl::ShaderDefines colours = frame::shadingDefines(shading, frame);
+    if (!mesh) colours["SURFACES_ALONE"] = "1";
+    if (textured) colours["TEXTURED"] = "1";
+    compute_.emplace(
+        Compute{resolve, std::move(mesh), std::move(surface),
+                inOnePass ? &context.programs().compute(
+                                "renderer/techniques/tessellation/surface_in_one_pass.comp.glsl", colours)
+                          : nullptr});
   }
   frame.passes().setBytesHeld(pass_ + "/raster",
                               ids_.bytes() + normals_.bytes() + depth_.bytes() +
@@ -94,7 +104,56 @@ void SurfacePicture::render(frame::Frame& frame, const std::function<void()>& dr
   shade(frame);
 }
 
+void SurfacePicture::startMesh(frame::Frame& frame) {
+  if (!compute_->inOnePass || !compute_->mesh) return;
+  const auto scope = frame.passes().open(pass_ + "/mesh");
+  compute_->mesh->drawStep({frame.gpuScene(), &mesh_, nullptr}, frame::anchorToClip(frame),
+                           frame::nearPlane(frame), frame::ComputeRaster::Step::Small);
+  meshStarted_ = true;
+}
+
+void SurfacePicture::finishMesh(frame::Frame& frame) {
+  if (!meshStarted_) return;
+  const auto scope = frame.passes().open(pass_ + "/mesh_bands");
+  compute_->mesh->drawStep({frame.gpuScene(), &mesh_, nullptr}, frame::anchorToClip(frame),
+                           frame::nearPlane(frame), frame::ComputeRaster::Step::Large);
+  meshFinished_ = true;
+}
+
+void SurfacePicture::renderInOnePass(frame::Frame& frame, const frame::ListedTriangles& triangles) {
+  using Step = frame::ComputeRaster::Step;
+  const bool meshDrawn = meshFinished_;
+  if (!meshDrawn) startMesh(frame);
+  {
+    const auto scope = frame.passes().open(pass_ + "/raster");
+    const glm::mat4 clip = frame::anchorToClip(frame);
+    compute_->surface.drawListedStep(triangles, clip, frame::nearPlane(frame), Step::Small);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    compute_->surface.drawListedStep(triangles, clip, frame::nearPlane(frame), Step::Large);
+  }
+  if (!meshDrawn) finishMesh(frame);
+  meshStarted_ = meshFinished_ = false;
+  const auto scope = frame.passes().open(pass_ + "/shade");
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  const gl::Program& program = *compute_->inOnePass;
+  frame::configureShading(program, frame, shading_);
+  const glm::uvec2 queues = (compute_->mesh ? *compute_->mesh : compute_->surface).queuePlaces();
+  program.set("firstQueue", queues.x);
+  program.set("secondQueue", queues.y);
+  compute_->surface.bindPixels(kPictureGatheredBuffer);
+  triangles.vertices.bindStorage(kPictureVerticesBuffer);
+  triangles.indices.bindStorage(kPictureIndicesBuffer);
+  picture_.bindImage(kSurfacePictureImage, gl::Access::Write);
+  program.dispatch(frame.sizePx());
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void SurfacePicture::renderListed(frame::Frame& frame, const frame::ListedTriangles& triangles) {
+  if (compute_->inOnePass) {
+    renderInOnePass(frame, triangles);
+    return;
+  }
   {
     const auto scope = frame.passes().open(pass_ + "/raster");
     const glm::mat4 clip = frame::anchorToClip(frame);

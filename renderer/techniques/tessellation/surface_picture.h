@@ -26,8 +26,14 @@ class SurfacePicture {
 
   /// `draw` draws with any program whose fragment shader is surface.frag.glsl.
   void render(frame::Frame& frame, const std::function<void()>& draw);
-  /// The same by ComputeRaster; vertices are TessellatedVertex.
+  /// The same by ComputeRaster; vertices are TessellatedVertex. Where the device gathers depth and index at
+  /// once, colours are made in the pass that reads them.
   void renderListed(frame::Frame& frame, const frame::ListedTriangles& triangles);
+  /// Before renderListed(): the scene's own triangles, in two steps without barriers, so that the caller's
+  /// passes run beside them. The second needs one after the first, and renderListed() one after the second,
+  /// for shader storage. Without them, or where the device cannot, renderListed() draws them all.
+  void startMesh(frame::Frame& frame);
+  void finishMesh(frame::Frame& frame);
   /// Triangles that `draw` makes; renders once more and waits for the GPU.
   uint32_t countTriangles(frame::Frame& frame, const std::function<void()>& draw);
   const gl::Texture& texture() const { return picture_; }
@@ -37,7 +43,9 @@ class SurfacePicture {
     const gl::Program& resolve;
     std::optional<frame::ComputeRaster> mesh;  ///< unless all parts are curved
     frame::ComputeRaster surface;
+    const gl::Program* inOnePass = nullptr;  ///< in place of `resolve` and shading
   };
+  void renderInOnePass(frame::Frame& frame, const frame::ListedTriangles& triangles);
   void shade(frame::Frame& frame);
 
   frame::ShadedSetting shading_;
@@ -47,6 +55,7 @@ class SurfacePicture {
   gl::Texture ids_, normals_, depth_, picture_;
   gl::Framebuffer framebuffer_;
   std::optional<Compute> compute_;
+  bool meshStarted_ = false, meshFinished_ = false;  // in this frame
 };
 
 }  // namespace limen::techniques

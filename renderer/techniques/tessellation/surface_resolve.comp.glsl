@@ -19,17 +19,9 @@ layout(std430, binding = kResolveSurfaceQueueBuffer) buffer SurfaceQueue { Raste
 layout(std430, binding = kResolveMeshQueueBuffer) buffer MeshQueue { RasterQueueHeader meshQueue; };
 layout(binding = kResolveIdsImage, r32ui) uniform writeonly uimage2D ids;
 layout(binding = kResolveNormalsImage, rgba32f) uniform writeonly image2D normals;
-// TessellatedVertex; sixteen bytes are read at once.
-layout(std430, binding = kResolveVerticesBuffer) readonly buffer VertexWords { uvec4 vertexWords[]; };
-layout(std430, binding = kResolveIndicesBuffer) readonly buffer Indices { uint indices[]; };
-
 uniform ivec2 sizePx;
-uniform vec2 rayScale;
+uniform vec2 rayScale;  // half the image's extents at distance 1
 uniform mat4 anchorToCamera;
-
-#ifdef TEXTURED
-#include "renderer/techniques/tessellation/surface_texture.glsl"
-#endif
 
 struct Gathered {
   float depth;  // near / distance; 0: nothing
@@ -64,10 +56,9 @@ Gathered takeMesh(int at) {
 #endif
 }
 
-TessellatedVertex vertexAt(uint at) {
-  const uvec4 first = vertexWords[2u * at], second = vertexWords[2u * at + 1u];
-  return TessellatedVertex(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w);
-}
+#define LISTED_VERTICES_BUFFER kResolveVerticesBuffer
+#define LISTED_INDICES_BUFFER kResolveIndicesBuffer
+#include "renderer/techniques/tessellation/listed_surface.glsl"
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -85,21 +76,7 @@ void main() {
     imageStore(ids, pixel, uvec4(mesh.id));
     return;
   }
-  const TessellatedVertex va = vertexAt(indices[3u * triangle]), vb = vertexAt(indices[3u * triangle + 1u]),
-                          vc = vertexAt(indices[3u * triangle + 2u]);
-  const vec3 a = (anchorToCamera * vec4(va.position, 1.0)).xyz, b = (anchorToCamera * vec4(vb.position, 1.0)).xyz,
-             c = (anchorToCamera * vec4(vc.position, 1.0)).xyz;
-  const SeenPoint seen = pointSeen(a, b, c, pixelRay(pixel, rayScale, sizePx));
-  const vec3 weights = barycentrics(a, b, c, seen.position);
-  vec3 normal = weights.x * va.normal + weights.y * vb.normal + weights.z * vc.normal;
-  // The triangle decides which side is seen.
-  if (dot(cross(b - a, c - a), seen.normal) < 0.0) normal = -normal;
-  uint id = kSurfaceOfPatch | va.material;
-#ifdef TEXTURED
-  if (onDarkCheck(weights.x * unpackUnorm2x16(va.rung) + weights.y * unpackUnorm2x16(vb.rung) +
-                  weights.z * unpackUnorm2x16(vc.rung)))
-    id |= kSurfaceDarkCheck;
-#endif
-  imageStore(ids, pixel, uvec4(id));
-  imageStore(normals, pixel, vec4(normal, seen.depth));
+  const ListedPoint seen = listedPoint(pixel, triangle);
+  imageStore(ids, pixel, uvec4(kSurfaceOfPatch | seen.material));
+  imageStore(normals, pixel, vec4(seen.normal, seen.depth));
 }

@@ -13,6 +13,7 @@ using glm::vec4;
 #endif
 
 const int kTessellationGroup = 64;
+const int kFewPatches = 1024;  // of which one group makes counts and offsets
 const int kMostSegments = 64;                  // of a side
 const int kLeastLanes = 4, kMostLanes = 1024;  // invocations that share a patch
 
@@ -149,6 +150,10 @@ const uint kResolveMeshDepthsBuffer = 5u;
 const uint kResolveMeshIdsBuffer = 6u;
 const uint kResolveMeshQueueBuffer = 7u;
 const uint kSurfacePictureImage = 0u;
+// In one pass, beside scene and surfaces; of these the attributes are left out.
+const uint kPictureGatheredBuffer = 4u;
+const uint kPictureVerticesBuffer = 6u;
+const uint kPictureIndicesBuffer = 7u;
 const uint kSurfaceOfPatch = 0x80000000u;  // then its material; otherwise a triangle's number
 const uint kSurfaceDarkCheck = 0x40000000u;  // with the former: on a dark check of the surface's texture
 

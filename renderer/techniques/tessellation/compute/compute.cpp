@@ -69,6 +69,11 @@ class ComputeTessellation : public Technique {
     if (settings_.sides == SharedSides::Copied) defines["COPIED"] = "1";
     gl::ProgramCache& programs = frame.context().programs();
     totalsProgram_ = &programs.compute(folder + "totals.comp.glsl", defines);
+    if (settings_.scan == compute::ScanForm::Auto && patches_->count() <= uint32_t(kFewPatches)) {
+      gl::ShaderDefines few = factors_->countDefines();
+      few.merge(gl::ShaderDefines(defines));
+      fewProgram_ = &programs.compute(folder + "few_patches.comp.glsl", few);
+    }
     const bool inVertexShader = settings_.inVertexShader();
     verticesProgram_ = &programs.compute(folder + (inVertexShader            ? "pattern_instances.comp.glsl"
                                                    : settings_.fourThreads() ? "four_lanes.comp.glsl"
@@ -106,21 +111,18 @@ class ComputeTessellation : public Technique {
   }
 
   void render(frame::Frame& frame) override {
-    factors_->run(frame);
-    {
+    if (lists_) picture_->startMesh(frame);
+    if (fewProgram_) {
+      factors_->runFirst(frame);
+      const auto scope = frame.passes().open("tessellation/counts");
+      factors_->factors().bindStorage(kFactorsBuffer);
+      fewProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
+      makeTotals(frame, *fewProgram_);
+    } else {
+      factors_->run(frame);
       const auto scope = frame.passes().open("tessellation/scan");
       scan_->run(factors_->counts(), *offsets_, patches_->count());
-      offsets_->bindStorage(kSlotOffsetsBuffer);
-      totals_->bindStorage(kTotalsBuffer);
-      count_->bindStorage(kTriangleCountBuffer);
-      totalsProgram_->use();
-      totalsProgram_->set("patchCount", patches_->count());
-      totalsProgram_->set("vertexCapacity", static_cast<uint32_t>(capacity_));
-      totalsProgram_->set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
-      totalsProgram_->set("indicesPerSlot", lists_ ? 3U : 1U);
-      if (!settings_.vertexParallel()) setLanes(frame.context());
-      glDispatchCompute(1, 1, 1);
-      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+      makeTotals(frame, *totalsProgram_);
     }
     patches_->bindStorage();
     factors_->factors().bindStorage(kFactorsBuffer);
@@ -128,7 +130,10 @@ class ComputeTessellation : public Technique {
     indices_->bindStorage(kIndicesBuffer);
     fill(frame, *verticesProgram_, "tessellation/vertices");
     if (copyProgram_) copySides(frame);
+    // Beside the vertices.
     fill(frame, *indicesProgram_, "tessellation/indices");
+    if (lists_) picture_->finishMesh(frame);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (trims_) {
       const int64_t most = 2 * int64_t{manyInvocations(frame.context())};
       trims_->run(frame, settings_.tessellation.cornerFix ? 1 : 0,
@@ -297,15 +302,28 @@ class ComputeTessellation : public Technique {
     return std::clamp<int64_t>(2 * vertices, 1024, kMostVertices);
   }
 
-  void setLanes(const gl::Context& context) const {
+  void makeTotals(frame::Frame& frame, const gl::Program& program) const {
+    offsets_->bindStorage(kSlotOffsetsBuffer);
+    totals_->bindStorage(kTotalsBuffer);
+    count_->bindStorage(kTriangleCountBuffer);
+    program.use();
+    program.set("patchCount", patches_->count());
+    program.set("vertexCapacity", static_cast<uint32_t>(capacity_));
+    program.set("indexCapacity", static_cast<uint32_t>(capacity_ * kIndicesPerVertex));
+    program.set("indicesPerSlot", lists_ ? 3U : 1U);
+    if (!settings_.vertexParallel()) setLanes(frame.context(), program);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  }
+
+  void setLanes(const gl::Context& context, const gl::Program& program) const {
     const auto* patchParallel = std::get_if<PatchParallel>(&settings_.form);
     const auto given = static_cast<uint32_t>(patchParallel ? patchParallel->lanes : 0);
-    totalsProgram_->set("lanes", settings_.fourThreads() ? 4U : given);
-    totalsProgram_->set("indexLanes", given);
-    totalsProgram_->set("manyInvocations", manyInvocations(context));
-    totalsProgram_->set(
-        "verticesPerInvocation",
-        static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach : PatchParallel{}.verticesEach));
+    program.set("lanes", settings_.fourThreads() ? 4U : given);
+    program.set("indexLanes", given);
+    program.set("manyInvocations", manyInvocations(context));
+    program.set("verticesPerInvocation", static_cast<uint32_t>(patchParallel ? patchParallel->verticesEach
+                                                                             : PatchParallel{}.verticesEach));
   }
 
   void fill(frame::Frame& frame, const gl::Program& program, const char* pass) {
@@ -321,7 +339,6 @@ class ComputeTessellation : public Technique {
       program.dispatch({static_cast<int>(std::min<int64_t>(most, 2 * manyInvocations(frame.context()))), 1},
                        {kTessellationGroup, 1});
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
   void dispatchPatches(uint32_t perPatch) const {
@@ -333,6 +350,7 @@ class ComputeTessellation : public Technique {
 
   void copySides(frame::Frame& frame) {
     const auto scope = frame.passes().open("tessellation/sides");
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     copyProgram_->use();
     copyProgram_->set("cornerFix", settings_.tessellation.cornerFix ? 1 : 0);
     dispatchPatches(4);
@@ -367,7 +385,8 @@ class ComputeTessellation : public Technique {
   std::optional<compute::PrefixSum> scan_;
   std::optional<SurfacePicture> picture_;
   const gl::Program *totalsProgram_ = nullptr, *verticesProgram_ = nullptr, *indicesProgram_ = nullptr,
-                    *drawProgram_ = nullptr, *copyProgram_ = nullptr;
+                    *drawProgram_ = nullptr, *copyProgram_ = nullptr,
+                    *fewProgram_ = nullptr;  // where there are no more than kFewPatches
   std::optional<gl::Buffer> offsets_, totals_, count_, vertices_, indices_;
   bool lists_ = false;    // indices of single triangles, for ComputeRaster; otherwise strips
   int64_t capacity_ = 0;  // vertices
