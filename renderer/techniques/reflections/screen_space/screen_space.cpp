@@ -16,6 +16,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/mirror_rays.h"
+#include "renderer/frame/surface_point.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/reflections/screen_space/screen_space_bindings.h"
