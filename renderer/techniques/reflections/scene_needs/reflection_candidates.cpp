@@ -46,6 +46,8 @@ std::vector<Row> rows(double glossRad) {
           {kVertices, {{"surroundings", choice("environment")}}},
           {kVertices},
           {kRays},
+          {kRays, {{"tree", choice("rebuilt")}}},
+          {kRays, {{"tree", choice("refitted")}}},
           {kHierarchy},
           {kCones}};
 }

@@ -65,6 +65,9 @@ class FragmentMeshes : public Technique {
     const surfaces::SubdivisionSurface& surface = scene.subdivisions[0];
     if (surface.scheme != surfaces::SubdivisionScheme::CatmullClark)
       throw Error("fragment meshes are of Catmull-Clark's scheme", "scheme", "use scheme: catmull_clark");
+    if (surface.attributes)
+      throw Error("fragment meshes have no texture coordinates", "cage",
+                  "use another cage, or technique subdivision/tables");
     const uint32_t material = scene.parts[surface.part].material;
     evaluate(frame, surface, material, NormalStart::First);
     if (!isSeparated(first_->layout().mesh)) evaluate(frame, surface, material, NormalStart::Second);

@@ -66,6 +66,7 @@ class ScreenSpace : public ReflectionTest {
     more["shading.ambient"] = 1.0;
     more["shading.diffuse"] = 0.0;
     more.emplace("fade", 0.0);
+    more.emplace("march", std::string("hierarchical"));
     more.emplace("fallback", std::string("none"));
     return more;
   }
@@ -87,7 +88,7 @@ TEST_F(ScreenSpace, AFloorShowsWhatThePictureShowsOfAWall) {
   const std::vector<Case> cases = {
       {"hierarchical", {}, 1.5},
       {"pyramid of one level", {{"march.coarsest", int64_t{0}}}, 1.5},
-      {"linear", {{"march", linear}}, 1.5},
+      {"linear", {{"march", linear}, {"march.stride", 1.0}}, 1.5},
       {"linear, 4 px", {{"march", linear}, {"march.stride", 4.0}}, 1.5},
       {"linear, 4 px, not refined",
        {{"march", linear}, {"march.stride", 4.0}, {"march.refinements", int64_t{0}}},
@@ -224,8 +225,9 @@ TEST_F(ScreenSpace, EndsWhereAWalkThroughAllPixelsEnds) {
       const bool linear = std::string(march) == "linear";
       frame::Frame frame(context(), scene, gpuScene, kSizePx);
       const TechniqueInfo& info = TechniqueRegistry::instance().get("reflections/screen_space");
-      const auto made =
-          info.make(ParameterValues(info.parameters, {{"fade", 0.0}, {"march", std::string(march)}}));
+      Given given = {{"fade", 0.0}, {"march", std::string(march)}};
+      if (linear) given["march.stride"] = 1.0;
+      const auto made = info.make(ParameterValues(info.parameters, given));
       made->prepare(frame);
       frame.begin();
       made->render(frame);
