@@ -193,6 +193,17 @@ std::vector<uint32_t> Texture::readUint(int level) const {
   return data;
 }
 
+std::vector<uint32_t> Texture::readUintLayer(int layer, int level) const {
+  const FormatFacts facts = factsOf(format_);
+  assert(facts.type == GL_UNSIGNED_INT && layer < layers_);
+  const glm::ivec2 size = levelSize(sizePx_, level);
+  std::vector<uint32_t> data(static_cast<size_t>(size.x) * size.y * facts.channels);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  glGetTextureSubImage(id_, level, 0, 0, layer, size.x, size.y, 1, facts.external, GL_UNSIGNED_INT,
+                       static_cast<GLsizei>(data.size() * 4), data.data());
+  return data;
+}
+
 void Texture::write(const Image& image, int level) const {
   const FormatFacts facts = factsOf(format_);
   assert(image.channels == facts.channels &&

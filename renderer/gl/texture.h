@@ -67,6 +67,8 @@ class Texture {
   /// One layer of an array.
   Image readLayer(int layer, int level = 0) const;
   std::vector<uint32_t> readUint(int level = 0) const;
+  /// One layer of an array of an unsigned format.
+  std::vector<uint32_t> readUintLayer(int layer, int level = 0) const;
   void write(const Image& image, int level = 0) const;
   /// Unsigned formats only: all channels of the finest level of one layer (0 where there are none).
   void writeUint(const std::vector<uint32_t>& texels, int layer = 0) const;

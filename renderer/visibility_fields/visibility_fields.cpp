@@ -177,7 +177,7 @@ std::vector<uint32_t> VisibilityFields::readWords(uint32_t object) const {
       for (int x = 0; x < tile.x; ++x) {
         const glm::ivec3 at =
             fieldWordPlace(static_cast<int>(object) * mapsPerObject() + map, {x, y}, tile, sliceSide_);
-        if (at.z != held) slice = words_->view(at.z).readUint(), held = at.z;
+        if (at.z != held) slice = words_->readUintLayer(at.z), held = at.z;
         out.push_back(
             slice[static_cast<size_t>(at.y) * static_cast<size_t>(sliceSide_) + static_cast<size_t>(at.x)]);
       }
