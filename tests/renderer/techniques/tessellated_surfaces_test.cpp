@@ -57,6 +57,17 @@ class TessellatedSurfaces : public TechniqueTest {
   }
 };
 
+/// 768 quartic triangles of 1,225 vertices: software renderers end a shader's loops after 65,535 rounds, so
+/// no invocation may take too many vertices. Against double precision, 1e-5 of the extent.
+TEST_F(TessellatedSurfaces, ManyVerticesOfQuarticTrianglesAreAllMade) {
+  const scene::Scene scene = makeScene("curved/subdivision", text({{"approximation", "c_patches"}}));
+  const auto made48 = made(scene, {{"factors", std::string("uniform")},
+                                   {"factors.segments", int64_t{48}},
+                                   {"capacity", int64_t{1000000}}});
+  ASSERT_EQ(made48->positions.size(), 768U * 1225U);
+  EXPECT_LE(largestError(scene, *made48), 1e-5 * 4.0);
+}
+
 /// All ways to evaluate, against double precision (1e-5 of the extent, 1 and 4) and without cracks.
 TEST_F(TessellatedSurfaces, AllFormsOfEvaluationAreExactAndWithoutCracks) {
   const std::array<scene::Scene, 2> scenes = {makeScene("curved/sheet", {{"turned", true}, {"relief", 2.0}}),

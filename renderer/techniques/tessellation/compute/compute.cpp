@@ -38,6 +38,14 @@ uint32_t manyInvocations(const gl::Context& context) {
 
 constexpr int64_t kIndicesPerVertex = 6;
 
+/// Invocations that take one piece of work after another: enough to occupy the device twice; on a software
+/// renderer also enough that none takes more than 1,024 of the `slots`, as its loops end after 65,535 rounds
+/// in all.
+int64_t workers(const gl::Context& context, int64_t slots) {
+  const int64_t least = context.device().software ? slots / 1024 : 0;
+  return std::max<int64_t>(2 * manyInvocations(context), least);
+}
+
 class ComputeTessellation : public Technique {
  public:
   using Settings = ComputeTessellationSettings;
@@ -135,9 +143,8 @@ class ComputeTessellation : public Technique {
     if (lists_) picture_->finishMesh(frame);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (trims_) {
-      const int64_t most = 2 * int64_t{manyInvocations(frame.context())};
       trims_->run(frame, settings_.tessellation.cornerFix ? 1 : 0,
-                  static_cast<int>(std::min(capacity_, most)));
+                  static_cast<int>(std::min(capacity_, workers(frame.context(), capacity_))));
     }
     if (lists_) {
       picture_->renderListed(frame, {*vertices_, *indices_, *count_, capacity_ * kIndicesPerVertex / 3});
@@ -336,8 +343,9 @@ class ComputeTessellation : public Technique {
       // For the most invocations that a patch may have, but no more than occupy the device twice.
       const int64_t most = settings_.vertexParallel() ? capacity_ * kIndicesPerVertex
                                                       : int64_t{patches_->count()} * kMostLanes;
-      program.dispatch({static_cast<int>(std::min<int64_t>(most, 2 * manyInvocations(frame.context()))), 1},
-                       {kTessellationGroup, 1});
+      program.dispatch(
+          {static_cast<int>(std::min(most, workers(frame.context(), capacity_ * kIndicesPerVertex))), 1},
+          {kTessellationGroup, 1});
     }
   }
 
