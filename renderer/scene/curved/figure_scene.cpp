@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Control meshes of subdivision surfaces, beside the patches that stand in for them (Holländer 2013, chapter
 // 2).
+#include <variant>
+
 #include "renderer/scene/curved/figure.h"
 #include "renderer/scene/curved/patch_mesh.h"
 #include "renderer/scene/curved/subdivision_cages.h"
@@ -96,51 +98,67 @@ const RegisteredScene<FigureSettings> kFigure{
      .source = "Holländer 2013, Table 2.1 (in place of its Big Guy)"},
     buildFigure};
 
-enum class ControlCage { Octahedron, Tetrahedron, Sheet, Fan, Valence, Crease, Collapsed, TwoTorus, Seamed };
-constexpr EnumNames<ControlCage, 9> enumNames(ControlCage) {
-  return {{{{ControlCage::Octahedron, "octahedron"},
-            {ControlCage::Tetrahedron, "tetrahedron"},
-            {ControlCage::Sheet, "sheet"},
-            {ControlCage::Fan, "fan"},
-            {ControlCage::Valence, "valence"},
-            {ControlCage::Crease, "crease"},
-            {ControlCage::Collapsed, "collapsed"},
-            {ControlCage::TwoTorus, "double_torus"},
-            {ControlCage::Seamed, "seamed_ring"}}}};
-}
+enum class ControlCage { Fan, Octahedron, Tetrahedron, Sheet, Valence, Crease, Collapsed, TwoTorus, Seamed };
+struct CageText {
+  const char *kind, *summary;
+};
+constexpr CageText kCages[] = {{"fan", "open triangles around a vertex"},
+                               {"octahedron", "two pyramids, base to base, of valence 4"},
+                               {"tetrahedron", "closed, of valence 3"},
+                               {"sheet", "open"},
+                               {"valence", "two pyramids, base to base"},
+                               {"crease", "two pyramids with a sharp waist"},
+                               {"collapsed", "two pyramids with a collapsed triangle"},
+                               {"double_torus", "two joined rings"},
+                               {"seamed_ring", "a ring with texture coordinates that end at seams"}};
+template <ControlCage kCage>
+struct Cage {
+  static constexpr const char *kKind = kCages[int(kCage)].kind, *kSummary = kCages[int(kCage)].summary;
+  static const SettingsTable<Cage>& table() {
+    static const SettingsTable<Cage> kTable = {};
+    return kTable;
+  }
+};
+template <>
+struct Cage<ControlCage::Crease> {
+  static constexpr const char *kKind = "crease", *kSummary = kCages[int(ControlCage::Crease)].summary;
+  double sharpness = surfaces::kInfinitelySharp;
+  static const SettingsTable<Cage>& table() {
+    static const SettingsTable<Cage> kTable = {{&Cage::sharpness,
+                                                "sharpness",
+                                                {0.0, surfaces::kInfinitelySharp},
+                                                "steps",
+                                                "For how many steps the waist stays sharp; 10: for ever",
+                                                "DeRose et al. 1998"}};
+    return kTable;
+  }
+};
+using AnyCage =
+    std::variant<Cage<ControlCage::Fan>, Cage<ControlCage::Octahedron>, Cage<ControlCage::Tetrahedron>,
+                 Cage<ControlCage::Sheet>, Cage<ControlCage::Valence>, Cage<ControlCage::Crease>,
+                 Cage<ControlCage::Collapsed>, Cage<ControlCage::TwoTorus>, Cage<ControlCage::Seamed>>;
 
 struct ControlMeshSettings {
-  ControlCage cage = ControlCage::Fan;
+  AnyCage cage;
   int valence = 24;
-  double sharpness = surfaces::kInfinitelySharp;
   FigureSettings figure;
+  ControlCage shape() const { return static_cast<ControlCage>(cage.index()); }
   static const SettingsTable<ControlMeshSettings>& table() {
     using S = ControlMeshSettings;
-    static const SettingsTable<S> kTable = {
-        {&S::cage, "cage",
-         "Control mesh: closed ones of valence 4 or 3, an open sheet, open triangles around a vertex, two "
-         "pyramids "
-         "base to base, those with a sharp waist, those with a collapsed triangle, two joined rings, or a "
-         "ring with texture coordinates that end at seams"},
-        {&S::valence,
-         "valence",
-         {3, 50},
-         "edges",
-         "Of the vertices that fan, valence, crease and collapsed have"},
-        {&S::sharpness,
-         "sharpness",
-         {0.0, surfaces::kInfinitelySharp},
-         "steps",
-         "For how many steps the edges of crease stay sharp; 10: for ever",
-         "DeRose et al. 1998"},
-        included(&S::figure)};
+    static const SettingsTable<S> kTable = {{&S::cage, "cage", "Control mesh"},
+                                            {&S::valence,
+                                             "valence",
+                                             {3, 50},
+                                             "edges",
+                                             "Of the vertices that fan, valence, crease and collapsed have"},
+                                            included(&S::figure)};
     return kTable;
   }
 };
 
 surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
   const auto n = static_cast<uint32_t>(settings.valence);
-  switch (settings.cage) {
+  switch (settings.shape()) {
     case ControlCage::Octahedron:
       return pyramids(4);
     case ControlCage::Tetrahedron:
@@ -152,7 +170,8 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
     case ControlCage::Crease: {
       surfaces::PolygonMesh mesh = pyramids(n);
       for (uint32_t i = 0; i < n; ++i)
-        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] = settings.sharpness;
+        mesh.sharpness[surfaces::edgeKey(2 + i, 2 + (i + 1) % n)] =
+            std::get<Cage<ControlCage::Crease>>(settings.cage).sharpness;
       return mesh;
     }
     case ControlCage::Collapsed: {
@@ -172,7 +191,7 @@ surfaces::PolygonMesh cageOf(const ControlMeshSettings& settings) {
 
 Scene buildControlMesh(const ControlMeshSettings& settings) {
   surfaces::SubdivisionSurface surface;
-  if (settings.cage == ControlCage::Seamed)
+  if (settings.shape() == ControlCage::Seamed)
     surface = seamedRing(settings.figure.scheme == CageScheme::CatmullClark);
   else
     surface.cage = cageOf(settings);
