@@ -52,7 +52,7 @@ class MultiCuts : public gl::GlTest {
 TEST_F(MultiCuts, FaultsAreFound) {
   EXPECT_EQ(faultsOf({{2, 0}, {3, 0}}, 1, 3).uncovered, 0U);
   EXPECT_EQ(faultsOf({{2, 0}, {6, 0}}, 1, 3).uncovered, 2U);
-  EXPECT_EQ(faultsOf({{1, 0}, {6, 0}, {15, 0}}, 1, 3).doubled, 2U);
+  EXPECT_EQ(faultsOf({{1, 0}, {6, 0}, {15, 0}}, 1, 3).doubled, 3U);
   EXPECT_EQ(faultsOf({{1, 1}}, 2, 3).uncovered, 8U);
 }
 

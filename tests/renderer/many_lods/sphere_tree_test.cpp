@@ -143,7 +143,7 @@ TEST(SphereTrees, CoincidentPointsAndOpposedNormals) {
   expectContained(tree, tree.spheres, tree.cones);
 }
 
-TEST(SphereTrees, DoNotDependOnTheNumberOfCores) {
+TEST(SphereTrees, AreTheSameTwice) {
   const Triangles of = bumpyBalls();
   const SphereTree once = treeOf(of, 10), again = treeOf(of, 10);
   EXPECT_EQ(once.spheres, again.spheres);
