@@ -16,7 +16,7 @@ class GpuTree {
 
   /// Spheres, and with `cones` cones, from where the vertices are: `positions` (three floats each, relative
   /// to the anchor) and `indices` as frame::GpuScene has them. One dispatch for each kUpdateLevels levels.
-  /// The tree's topology stays. Binds storage buffers 0 to 4. Source: Hollaender 2013, section 3.4.2.
+  /// The tree's topology stays. Binds storage buffers 0 to 4. Source: Holländer 2013, section 3.5.3.
   void update(const gl::Buffer& positions, const gl::Buffer& indices, bool cones = false) const;
 
   const gl::Buffer& nodes() const { return nodes_; }

@@ -97,11 +97,17 @@ const uint kUpdatePointsBuffer = 2u;
 const uint kUpdateNodesBuffer = 3u;
 const uint kUpdateConesBuffer = 4u;
 
-// Atlas of views.
+// Atlas of views: tile after tile, row after row. Nodes, views, list and control as above.
 const int kSplatGroup = 256;
-const uint kSplatAtlasBuffer = 3u;
+const int kSmallSplatPx = 64;  // boxes of more pixels are drawn by the whole group
+const uint kSplatDepthsBuffer = 3u;
 const uint kSplatWinnersBuffer = 4u;
+const uint kSplatColoursBuffer = 6u;
 const uint kAtlasEmpty = 0xffffffffu;
+const float kFarthestDepth = 0.99999988079071045f;  // 1 - 2^-23: what lies farther, too
+
+// Values of the tree's nodes, four halves each (ValueTree).
+const uint kAverageValuesBuffer = 0u;
 
 #ifdef __cplusplus
 }  // namespace limen::many_lods

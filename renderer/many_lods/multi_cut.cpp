@@ -26,7 +26,7 @@ const SettingsTable<S>& edgesTable() {
                                            {1, 24},
                                            "",
                                            "Edges of the tree by which an entry may move in a frame",
-                                           "Hollaender 2013, section 3.3.3 (q)"}};
+                                           "Holländer 2013, section 3.5.2 (q)"}};
   return kTable;
 }
 

@@ -13,7 +13,7 @@
 
 namespace limen::many_lods {
 
-/// From the root in every frame. Source: Hollaender 2013, section 3.3.1.
+/// From the root in every frame. Source: Holländer 2013, section 3.5.2.
 struct BasicCuts {
   static constexpr const char *kKind = "basic", *kSummary = "from the root in every frame";
   static const SettingsTable<BasicCuts>& table();
@@ -49,7 +49,7 @@ using CutMode = std::variant<IncrementalCuts, LazyCuts, BasicCuts, LiteralCuts>;
 /// (node_predicate.h): an entry with a valid parent climbs as long as it is a first child, and is dropped
 /// where it is a second one. Lazy cuts merge where both children are there; every cut covers each leaf once
 /// in every frame. Splits that the list has no room for are not done, and counted: those of later views
-/// first. Source: Hollaender 2013, sections 3.3.1 to 3.3.3; order, exact merge and budget are the bench's
+/// first. Source: Holländer 2013, sections 3.5.2 and 3.5.3; order, exact merge and budget are the bench's
 /// own.
 class MultiCut {
  public:

@@ -21,7 +21,7 @@ CutView perspectiveView(glm::dvec3 eye, glm::dvec3 axisZ, glm::dvec3 down, glm::
 /// the coarse side: valid is "<". Where a node's spheres are made by mergedSphere(), children of valid nodes
 /// are valid, for all floats: with u = 2^-24, the squares compared err by at most 5 u; a parent is larger
 /// than its child's sphere by the share kSphereSlack > 16 u, and q >= 1. Planes err by less than 12 u of the
-/// distance; the test for culling gives way by kCullSlack = 32 u of it less for a child. Source: Hollaender
+/// distance; the test for culling gives way by kCullSlack = 32 u of it less for a child. Source: Holländer
 /// 2013, section 3.3 (the size), with monotony as the bench's own.
 bool isValid(glm::vec4 sphere, uint32_t node, uint32_t leaves, const CutView& view);
 bool isCulled(glm::vec4 sphere, uint32_t node, uint32_t leaves, const CutView& view);

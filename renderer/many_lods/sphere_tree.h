@@ -39,7 +39,7 @@ struct TreeBuildSettings {
 
 /// A complete binary tree over points of a scene's surface, in an array: node 1 is the root, node i has the
 /// children 2 i and 2 i + 1, leaf j is node 2^depth + j. Each run of points is split at the median along the
-/// axis for which the bounding spheres of the halves' boxes have the least volume in sum. Source: Hollaender
+/// axis for which the bounding spheres of the halves' boxes have the least volume in sum. Source: Holländer
 /// 2013, section 3.4.1.
 struct SphereTree {
   int depth = 0;

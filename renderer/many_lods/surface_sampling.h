@@ -21,7 +21,7 @@ static_assert(sizeof(SurfaceSample) == 8);
 /// `count` points of the triangles, uniform by area: of every run of triangles in order the number of points
 /// differs from its share of the area by less than 1 at either end, and within a triangle they follow a
 /// sequence of low discrepancy. Triangles without area, or with one that is not finite, get none. The same
-/// seed gives the same points. Throws Error if no triangle has an area. Source: Hollaender 2013,
+/// seed gives the same points. Throws Error if no triangle has an area. Source: Holländer 2013,
 /// section 3.4.1 ("uniformly"); strata and sequence (R2, Roberts 2018) are the bench's own.
 std::vector<SurfaceSample> sampleSurface(const std::vector<glm::dvec3>& positions,
                                          const std::vector<glm::uvec3>& triangles, uint32_t count,

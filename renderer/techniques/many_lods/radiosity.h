@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "renderer/frame/frame.h"
+#include "renderer/gl/program.h"
+#include "renderer/many_lods/view_atlas.h"
+#include "renderer/techniques/many_lods/virtual_lights.h"
+
+namespace limen::techniques {
+
+inline constexpr const char* kRadiosityPass = "many_lods/radiosity";
+
+/// One bounce of light: what virtual point lights send to each pixel's surface and that reflects diffusely.
+/// RGBA32F, W / (m^2 sr), background 0, alpha 1. All techniques of virtual lights end here and differ by how
+/// a point sees a light. Source: Keller 1997; Holländer 2013, section 3.6.1.
+class Radiosity {
+ public:
+  /// `traced`: by rays, else from an atlas.
+  Radiosity(frame::Frame& frame, bool traced);
+  /// `atlas`: null where rays are traced. `depthBias`: world units.
+  void shade(frame::Frame& frame, const VirtualLights& lights, const many_lods::ViewAtlas* atlas,
+             double depthBias) const;
+  const gl::Texture& texture() const { return picture_; }
+
+ private:
+  const gl::Program& program_;
+  gl::Texture picture_;
+};
+
+}  // namespace limen::techniques
