@@ -23,22 +23,23 @@ uniform ivec2 sizePx;
 uniform uint lightCount;
 uniform float leastDistance2;
 uniform float depthBias;  // world units
+uniform float slopeBias;  // share of the distance, for a surface at 45 degrees
 uniform int side;         // of a tile, px
 
 shared VirtualLight batch[kRadiosityBatch];
 
 #ifdef TRACED
-uint lightTriangle;
+uint lightTriangle = 0u;
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return hit.triangle != lightTriangle; }
 
-float seen(uint number, VirtualLight light, vec3 position, uint triangle) {
+float seen(uint number, VirtualLight light, vec3 position, vec3 normal, uint triangle) {
   lightTriangle = floatBitsToUint(light.normal.w);
   const vec3 path = light.position.xyz - position;
   // Both ends lie on surfaces: what is within a ten-thousandth of either is no occluder.
   return rayAnyHit(Ray(position, path, 1e-4, 1.0 - 1e-4, triangle)) ? 0.0 : 1.0;
 }
 #else
-float seen(uint number, VirtualLight light, vec3 position, uint triangle) {
+float seen(uint number, VirtualLight light, vec3 position, vec3 normal, uint triangle) {
   const CutView view = views[number];
   const vec3 v = position - view.eye.xyz;
   const float distance_ = length(v);
@@ -48,7 +49,11 @@ float seen(uint number, VirtualLight light, vec3 position, uint triangle) {
   const ivec2 pixel = clamp(ivec2(floor((0.5 + 0.5 * at) * float(side))), ivec2(0), ivec2(side - 1));
   const uint nearest = depths[(number * uint(side) + uint(pixel.y)) * uint(side) + uint(pixel.x)];
   if (nearest == kAtlasEmpty) return 1.0;
-  return uintBitsToFloat(nearest) < (distance_ - depthBias) * view.frustum.z ? 0.0 : 1.0;
+  // Discs have one depth: that of a slanted surface differs from it by the tangent of its slope.
+  const float cosine = clamp(abs(dot(v, normal)) / max(distance_, 1e-30), 0.0, 1.0);
+  const float slope = min(sqrt(1.0 - cosine * cosine) / max(cosine, 1e-3), kRadiosityMostSlope);
+  const float bias = depthBias + slopeBias * distance_ * (1.0 + slope);
+  return uintBitsToFloat(nearest) < (distance_ - bias) * view.frustum.z ? 0.0 : 1.0;
 }
 #endif
 
@@ -74,7 +79,7 @@ void main() {
       const float cosines = dot(path, normal) * -dot(path, light.normal.xyz);
       if (!(dot(path, normal) > 0.0) || !(cosines > 0.0)) continue;
       const float share = cosines / (distance2 * max(distance2, leastDistance2));
-      sum += light.flux.rgb * (share * seen(first + i, light, position.xyz, triangle));
+      sum += light.flux.rgb * (share * seen(first + i, light, position.xyz, normal, triangle));
     }
   }
   if (!inside) return;

@@ -18,7 +18,7 @@ Radiosity::Radiosity(frame::Frame& frame, bool traced)
 }
 
 void Radiosity::shade(frame::Frame& frame, const VirtualLights& lights, const many_lods::ViewAtlas* atlas,
-                      double depthBias) const {
+                      const DepthBias& bias) const {
   const auto channel = [&](frame::Channel of) -> const gl::Texture& {
     return frame.get<frame::GBufferChannel>(frame::ChannelSetting{of}).texture();
   };
@@ -36,7 +36,8 @@ void Radiosity::shade(frame::Frame& frame, const VirtualLights& lights, const ma
     lights.views().bindStorage(kRadiosityViewsBuffer);
     atlas->depths().bindStorage(kRadiosityDepthsBuffer);
     program_.set("side", atlas->tilePx().x);
-    program_.set("depthBias", static_cast<float>(depthBias));
+    program_.set("depthBias", static_cast<float>(bias.world));
+    program_.set("slopeBias", static_cast<float>(bias.slope));
   } else {
     frame.gpuScene().rays(frame.context()).bind(program_);
   }

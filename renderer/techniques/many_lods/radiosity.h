@@ -12,6 +12,12 @@ namespace limen::techniques {
 
 inline constexpr const char* kRadiosityPass = "many_lods/radiosity";
 
+/// How much nearer to a light than a point its occluders are.
+struct DepthBias {
+  double world = 0.0;  ///< world units
+  double slope = 0.0;  ///< share of the distance, times 1 + the tangent of the angle to the surface's normal
+};
+
 /// One bounce of light: what virtual point lights send to each pixel's surface and that reflects diffusely.
 /// RGBA32F, W / (m^2 sr), background 0, alpha 1. All techniques of virtual lights end here and differ by how
 /// a point sees a light. Source: Keller 1997; Holländer 2013, section 3.6.1.
@@ -19,9 +25,9 @@ class Radiosity {
  public:
   /// `traced`: by rays, else from an atlas.
   Radiosity(frame::Frame& frame, bool traced);
-  /// `atlas`: null where rays are traced. `depthBias`: world units.
+  /// `atlas`: null where rays are traced. Biases: see there.
   void shade(frame::Frame& frame, const VirtualLights& lights, const many_lods::ViewAtlas* atlas,
-             double depthBias) const;
+             const DepthBias& bias) const;
   const gl::Texture& texture() const { return picture_; }
 
  private:

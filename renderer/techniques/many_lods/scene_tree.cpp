@@ -4,7 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <chrono>
+#include <string>
 
+#include "experiments/base/error.h"
 #include "renderer/frame/surface_point.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 
@@ -53,11 +55,20 @@ const SettingsTable<CutSettings>& CutSettings::table() {
        "Holländer 2013, table 3.2 (1, 2 and 4)"},
       {&S::room,
        "room",
-       {64, 268435456},
+       {1, 4194304},
        "",
-       "Nodes that the cuts of all views may have together; splits beyond are not done, and counted",
+       "Nodes that a cut may have on average over the views; splits beyond are not done, and counted",
        "Holländer 2013, section 3.7.2 (worst case: views x leaves)"}};
   return kTable;
+}
+
+uint32_t CutSettings::capacity(uint32_t views) const {
+  const int64_t entries = room * views;
+  if (entries > int64_t{1} << 31)
+    throw Error("cuts of " + std::to_string(views) + " views with " + std::to_string(room) +
+                    " nodes each are more than lists hold",
+                "room", "lower the room or the number of views");
+  return static_cast<uint32_t>(entries);
 }
 
 SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings) : settings_(settings) {

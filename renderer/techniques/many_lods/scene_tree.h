@@ -19,7 +19,7 @@ namespace limen::techniques {
 /// Points on the scene's surface and the tree over them.
 struct TreeSettings {
   int levels = 16;
-  double leafScale = 1.5;
+  double leafScale = 2.0;
   int64_t seed = 1;
   bool update = true;
   static const SettingsTable<TreeSettings>& table();
@@ -29,7 +29,9 @@ struct TreeSettings {
 struct CutSettings {
   many_lods::CutMode mode;
   double epsilonPx = 1.0;
-  int64_t room = 65536;
+  int64_t room = 16384;
+  /// Of the lists of so many views.
+  uint32_t capacity(uint32_t views) const;
   static const SettingsTable<CutSettings>& table();
 };
 

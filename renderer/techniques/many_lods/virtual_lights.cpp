@@ -37,7 +37,8 @@ const SettingsTable<VirtualLightSettings>& VirtualLightSettings::table() {
        {0.0, 1.0},
        "",
        "Distance from a virtual light below which its light grows no more, share of the scene's diagonal",
-       "Keller 1997 (the bound is usual; Holländer 2013 gives none)"}};
+       "Keller 1997 (the bound is usual; Holländer 2013 gives none)"},
+      {&S::gain, "gain", {0.0, 1000.0}, "", "Factor on the light, for pictures of a useful brightness"}};
   return kTable;
 }
 
@@ -67,7 +68,7 @@ void VirtualLights::make(frame::Frame& frame, int step, int tilePx, double epsil
   program_.set("lightY", turned(light.axisY, 0.0));
   program_.set("lightZ", turned(light.direction(), 0.0));
   // A diffuse light of radiance L and area A sends out pi L A.
-  const double share = std::acos(-1.0) * light.area() / static_cast<double>(settings_.count);
+  const double share = settings_.gain * std::acos(-1.0) * light.area() / static_cast<double>(settings_.count);
   program_.set("fluxOfRay", light.parts[0].radiance * static_cast<float>(share));
   program_.set("lightCount", count());
   program_.set("lift", static_cast<float>(lift));

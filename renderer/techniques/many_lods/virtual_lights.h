@@ -14,6 +14,7 @@ struct VirtualLightSettings {
   double turnDeg = 0.0;
   int framesBefore = 0;
   double clamp = 0.05;
+  double gain = 10.0;
   static const SettingsTable<VirtualLightSettings>& table();
 };
 

@@ -2,6 +2,8 @@
 // Instant radiosity with a shadow map for each virtual point light, all of them drawn from cuts of one tree
 // of points (ManyLoDs). Source: Holländer 2013, sections 3.5 and 3.6.1. Projection (stereographic
 // hemispheres), bias, nearest distance and bound of the light are parameters that the thesis leaves open.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "renderer/techniques/many_lods/radiosity.h"
@@ -16,6 +18,7 @@ struct InstantRadiositySettings {
   CutSettings cut;
   int tilePx = 64;
   double bias = 3.0;
+  double slopeBias = 1.0;
   double nearest = 2.0;
   static const SettingsTable<InstantRadiositySettings>& table() {
     using S = InstantRadiositySettings;
@@ -34,6 +37,12 @@ struct InstantRadiositySettings {
          {0.0, 64.0},
          "",
          "How much nearer to a light than a point its occluders are, radii of leaves"},
+        {&S::slopeBias,
+         "slope_bias",
+         {0.0, 16.0},
+         "px",
+         "And by as many pixels, or nodes of the size allowed if that is more, times 1 + the surface's "
+         "slope"},
         {&S::nearest,
          "nearest",
          {0.0, 64.0},
@@ -52,7 +61,7 @@ class InstantRadiosity : public Technique {
     tree_.emplace(frame, settings_.tree);
     lights_.emplace(frame, settings_.lights);
     cut_.emplace(frame.context(), lights_->count(), tree_->tree().depth(),
-                 static_cast<uint32_t>(settings_.cut.room), settings_.cut.mode);
+                 settings_.cut.capacity(lights_->count()), settings_.cut.mode);
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
                    many_lods::AtlasForm::Depth);
     radiosity_.emplace(frame, false);
@@ -70,7 +79,10 @@ class InstantRadiosity : public Technique {
       atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(),
                    {.nearest = static_cast<float>(settings_.nearest) * radius});
     }
-    radiosity_->shade(frame, *lights_, &*atlas_, settings_.bias * double(radius));
+    // Pixels as they are on average over the directions (many_lods::hemisphereView()).
+    const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.cut.epsilonPx, 1.0);
+    radiosity_->shade(frame, *lights_, &*atlas_,
+                      {settings_.bias * double(radius), settings_.slopeBias * pixel});
   }
 
   const gl::Texture& product() const override { return radiosity_->texture(); }

@@ -27,7 +27,7 @@ constexpr EnumNames<PointPixels, 3> enumNames(PointPixels) {
 
 struct PointsSettings {
   TreeSettings tree;
-  CutSettings cut;
+  CutSettings cut{{}, 1.0, 1048576};
   PointPixels pixels = PointPixels::Wide;
   frame::ShadedSetting shading;
   static const SettingsTable<PointsSettings>& table() {
@@ -66,8 +66,7 @@ class AdaptivePoints : public Technique {
   void prepare(frame::Frame& frame) override {
     tree_.emplace(frame, settings_.tree);
     light_.emplace(frame, tree_->tree(), settings_.shading);
-    cut_.emplace(frame.context(), 1U, tree_->tree().depth(), static_cast<uint32_t>(settings_.cut.room),
-                 settings_.cut.mode);
+    cut_.emplace(frame.context(), 1U, tree_->tree().depth(), settings_.cut.capacity(1), settings_.cut.mode);
     atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels));
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =

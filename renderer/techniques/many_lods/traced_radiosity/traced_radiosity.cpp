@@ -29,7 +29,7 @@ class TracedRadiosity : public Technique {
   }
   void render(frame::Frame& frame) override {
     lights_->make(frame, step_++, 64, 1.0, 0.0);
-    radiosity_->shade(frame, *lights_, nullptr, 0.0);
+    radiosity_->shade(frame, *lights_, nullptr, {});
   }
   const gl::Texture& product() const override { return radiosity_->texture(); }
 
