@@ -15,11 +15,11 @@ namespace {
 struct InstantRadiositySettings {
   VirtualLightSettings lights;
   TreeSettings tree;
-  CutSettings cut;
+  CutSettings cut{{}, 2.0, 16384};
   int tilePx = 64;
   double bias = 3.0;
   double slopeBias = 1.0;
-  double nearest = 2.0;
+  double nearest = 8.0;
   static const SettingsTable<InstantRadiositySettings>& table() {
     using S = InstantRadiositySettings;
     static const SettingsTable<S> kTable = {
