@@ -3,6 +3,7 @@
 // their views have it.
 #include "renderer/many_lods/many_lods_bindings.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
+#include "renderer/ray_tracing/ray_tracing_bindings.h"
 #ifdef TRACED
 #include "renderer/ray_tracing/trace.glsl"
 #endif
