@@ -106,6 +106,21 @@ const uint kSplatColoursBuffer = 6u;
 const uint kAtlasEmpty = 0xffffffffu;
 const float kFarthestDepth = 0.99999988079071045f;  // 1 - 2^-23: what lies farther, too
 
+// Cuts drawn in place.
+const int kInPlaceGroup = 256;
+struct InPlaceCounts {  // std430
+  uint deepest;  // most entries that a stack held
+  uint refused;  // splits that a stack had no room for
+  uint drawn;    // nodes, of all views
+  uint rounds;   // of all groups
+  uint unfinished;  // groups that a software renderer's limit on loops stopped: tiles are worthless
+  uint unused0, unused1, unused2;
+};
+#ifdef __cplusplus
+static_assert(sizeof(InPlaceCounts) == 32);
+#endif
+const uint kInPlaceCountsBuffer = 5u;
+
 // Values of the tree's nodes, four halves each (ValueTree).
 const uint kAverageValuesBuffer = 0u;
 

@@ -36,6 +36,7 @@ const uint kVirtualViewsBuffer = 1u;
 const uint kRadiosityLightsBuffer = 0u;
 const uint kRadiosityViewsBuffer = 1u;
 const uint kRadiosityDepthsBuffer = 2u;
+const uint kRadiosityCountsBuffer = 3u;
 const int kRadiosityBatch = 64;          // lights that a group holds at a time
 const float kRadiosityMostSlope = 4.0f;  // that biases follow
 const uint kRadiosityPositionsUnit = 0u;

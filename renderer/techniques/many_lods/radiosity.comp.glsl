@@ -14,6 +14,9 @@ layout(std430, binding = kRadiosityLightsBuffer) readonly buffer Lights { Virtua
 layout(std430, binding = kRadiosityViewsBuffer) readonly buffer Views { CutView views[]; };
 layout(std430, binding = kRadiosityDepthsBuffer) readonly buffer Depths { uint depths[]; };
 #endif
+#ifdef IN_PLACE
+layout(std430, binding = kRadiosityCountsBuffer) readonly buffer Counts { InPlaceCounts counts; };
+#endif
 layout(binding = kRadiosityPositionsUnit) uniform sampler2D positions;
 layout(binding = kRadiosityNormalsUnit) uniform sampler2D normals;
 layout(binding = kRadiosityAlbedosUnit) uniform sampler2D albedos;
@@ -86,6 +89,9 @@ void main() {
   if (!inside) return;
 #ifdef TRACED
   if (rayCutShort) sum = vec3(uintBitsToFloat(0x7fc00000u));
+#endif
+#ifdef IN_PLACE
+  if (counts.unfinished != 0u) sum = vec3(uintBitsToFloat(0x7fc00000u));
 #endif
   // A light's intensity is flux cos / pi, a diffuse surface reflects albedo / pi.
   const vec3 albedo = texelFetch(albedos, pixel, 0).rgb;

@@ -9,16 +9,25 @@
 
 namespace limen::techniques {
 
-Radiosity::Radiosity(frame::Frame& frame, bool traced)
-    : program_(frame.context().programs().compute(
-          "renderer/techniques/many_lods/radiosity.comp.glsl",
-          traced ? gl::ShaderDefines{{"TRACED", "1"}} : gl::ShaderDefines{})),
+namespace {
+
+gl::ShaderDefines sightDefines(Radiosity::Sight sight) {
+  if (sight == Radiosity::Sight::Rays) return {{"TRACED", "1"}};
+  if (sight == Radiosity::Sight::InPlaceAtlas) return {{"IN_PLACE", "1"}};
+  return {};
+}
+
+}  // namespace
+
+Radiosity::Radiosity(frame::Frame& frame, Sight sight)
+    : program_(frame.context().programs().compute("renderer/techniques/many_lods/radiosity.comp.glsl",
+                                                  sightDefines(sight))),
       picture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld(kRadiosityPass, picture_.bytes());
 }
 
 void Radiosity::shade(frame::Frame& frame, const VirtualLights& lights, const many_lods::ViewAtlas* atlas,
-                      const DepthBias& bias) const {
+                      const DepthBias& bias, const gl::Buffer* counts) const {
   const auto channel = [&](frame::Channel of) -> const gl::Texture& {
     return frame.get<frame::GBufferChannel>(frame::ChannelSetting{of}).texture();
   };
@@ -41,6 +50,7 @@ void Radiosity::shade(frame::Frame& frame, const VirtualLights& lights, const ma
   } else {
     frame.gpuScene().rays(frame.context()).bind(program_);
   }
+  if (counts) counts->bindStorage(kRadiosityCountsBuffer);
   picture_.bindImage(kRadiosityImage, gl::Access::Write);
   program_.set("sizePx", frame.sizePx());
   program_.set("lightCount", lights.count());

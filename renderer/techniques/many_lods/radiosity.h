@@ -23,11 +23,12 @@ struct DepthBias {
 /// a point sees a light. Source: Keller 1997; Holländer 2013, section 3.6.1.
 class Radiosity {
  public:
-  /// `traced`: by rays, else from an atlas.
-  Radiosity(frame::Frame& frame, bool traced);
-  /// `atlas`: null where rays are traced. Biases: see there.
+  enum class Sight { Rays, Atlas, InPlaceAtlas };
+  Radiosity(frame::Frame& frame, Sight sight);
+  /// `atlas`: null with Rays. `counts`: of InPlaceCuts, with InPlaceAtlas: where these were stopped, the
+  /// picture is NaN.
   void shade(frame::Frame& frame, const VirtualLights& lights, const many_lods::ViewAtlas* atlas,
-             const DepthBias& bias) const;
+             const DepthBias& bias, const gl::Buffer* counts = nullptr) const;
   const gl::Texture& texture() const { return picture_; }
 
  private:

@@ -43,10 +43,9 @@ const SettingsTable<TreeSettings>& TreeSettings::table() {
   return kTable;
 }
 
-const SettingsTable<CutSettings>& CutSettings::table() {
-  using S = CutSettings;
+const SettingsTable<CutLimits>& CutLimits::table() {
+  using S = CutLimits;
   static const SettingsTable<S> kTable = {
-      {&S::mode, "cuts", "Where cuts start in a frame and how far they go", "Holländer 2013, section 3.5.2"},
       {&S::epsilonPx,
        "epsilon",
        {0.25, 64.0},
@@ -62,7 +61,7 @@ const SettingsTable<CutSettings>& CutSettings::table() {
   return kTable;
 }
 
-uint32_t CutSettings::capacity(uint32_t views) const {
+uint32_t CutLimits::capacity(uint32_t views) const {
   const int64_t entries = room * views;
   if (entries > int64_t{1} << 31)
     throw Error("cuts of " + std::to_string(views) + " views with " + std::to_string(room) +

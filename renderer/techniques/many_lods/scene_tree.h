@@ -25,15 +25,16 @@ struct TreeSettings {
   static const SettingsTable<TreeSettings>& table();
 };
 
-/// How nodes are chosen.
-struct CutSettings {
-  many_lods::CutMode mode;
+/// How many nodes there may be.
+struct CutLimits {
   double epsilonPx = 1.0;
   int64_t room = 16384;
   /// Of the lists of so many views.
   uint32_t capacity(uint32_t views) const;
-  static const SettingsTable<CutSettings>& table();
+  static const SettingsTable<CutLimits>& table();
 };
+inline constexpr const char *kCutsText = "Where cuts start in a frame and how far they go",
+                            *kCutsSource = "Holländer 2013, section 3.5.2";
 
 /// The tree of a frame's scene, brought up to date in each frame.
 class SceneTree {

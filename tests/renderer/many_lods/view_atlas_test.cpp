@@ -92,6 +92,7 @@ class ViewAtlases : public gl::GlTest {
              z * double(view.frustum.z)};
       return true;
     }
+    if (along(view.axisZ) < -sphere.w) return false;  // wholly behind the horizon
     const double theta = std::acos(std::clamp(along(view.axisZ) / distance, -1.0, 1.0));
     const double alpha = std::asin(sphere.w / distance);
     if (theta + alpha > 2.9) return false;

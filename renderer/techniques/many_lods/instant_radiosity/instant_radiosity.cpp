@@ -5,17 +5,47 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
+#include "renderer/many_lods/in_place_cuts.h"
 #include "renderer/techniques/many_lods/radiosity.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
 
 namespace limen::techniques {
 namespace {
 
+constexpr const char* kInPlacePass = "many_lods/in_place";
+
+using ViewCuts = std::variant<many_lods::IncrementalCuts, many_lods::LazyCuts, many_lods::BasicCuts,
+                              many_lods::LiteralCuts, many_lods::InPlaceSettings>;
+
+/// Of cuts that are kept in a list.
+many_lods::CutMode listed(const ViewCuts& cuts) {
+  return std::visit(
+      [](const auto& form) -> many_lods::CutMode {
+        if constexpr (std::is_same_v<std::decay_t<decltype(form)>, many_lods::InPlaceSettings>)
+          return many_lods::BasicCuts{};
+        else
+          return form;
+      },
+      cuts);
+}
+
+std::vector<Quantity> radiosityQuantities() {
+  std::vector<Quantity> out = cutQuantities();
+  out.push_back({"stack_entries", "Most nodes on a stack", "", Direction::LowerIsBetter});
+  out.push_back({"stack_bound", "Bound on the nodes on a stack", "", Direction::Neither});
+  out.push_back({"unfinished_groups", "Groups stopped by a software renderer's limit on loops", "",
+                 Direction::LowerIsBetter});
+  return out;
+}
+
 struct InstantRadiositySettings {
   VirtualLightSettings lights;
   TreeSettings tree;
-  CutSettings cut{{}, 2.0, 16384};
+  ViewCuts cuts;
+  CutLimits limits{2.0, 16384};
   int tilePx = 64;
   double bias = 3.0;
   double slopeBias = 1.0;
@@ -25,7 +55,8 @@ struct InstantRadiositySettings {
     static const SettingsTable<S> kTable = {
         included(&S::lights),
         included(&S::tree),
-        included(&S::cut),
+        {&S::cuts, "cuts", kCutsText, kCutsSource},
+        included(&S::limits),
         {&S::tilePx,
          "tile",
          {4, 512},
@@ -60,13 +91,18 @@ class InstantRadiosity : public Technique {
   void prepare(frame::Frame& frame) override {
     tree_.emplace(frame, settings_.tree);
     lights_.emplace(frame, settings_.lights);
-    cut_.emplace(frame.context(), lights_->count(), tree_->tree().depth(),
-                 settings_.cut.capacity(lights_->count()), settings_.cut.mode);
+    const int depth = tree_->tree().depth();
+    if (const auto* inPlace = std::get_if<many_lods::InPlaceSettings>(&settings_.cuts)) {
+      inPlace_.emplace(frame.context(), lights_->count(), depth, *inPlace);
+    } else {
+      cut_.emplace(frame.context(), lights_->count(), depth, settings_.limits.capacity(lights_->count()),
+                   listed(settings_.cuts));
+      frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
+    }
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
                    many_lods::AtlasForm::Depth);
-    radiosity_.emplace(frame, false);
-    frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
-    frame.passes().setBytesHeld(kSplatPass, atlas_->bytes());
+    radiosity_.emplace(frame, inPlace_ ? Radiosity::Sight::InPlaceAtlas : Radiosity::Sight::Atlas);
+    frame.passes().setBytesHeld(cut_ ? kSplatPass : kInPlacePass, atlas_->bytes());
   }
 
   void render(frame::Frame& frame) override {
@@ -74,21 +110,35 @@ class InstantRadiosity : public Technique {
       for (int before = settings_.lights.framesBefore; before > 0; --before) findCuts(frame, -before, false);
     findCuts(frame, step_++, false);
     const auto radius = static_cast<float>(tree_->tree().leafRadius());
-    {
+    const many_lods::ViewAtlas::Settings discs{.nearest = static_cast<float>(settings_.nearest) * radius};
+    if (inPlace_) {
+      const auto scope = frame.passes().open(kInPlacePass);
+      inPlace_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
+    } else {
       const auto scope = frame.passes().open(kSplatPass);
-      atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(),
-                   {.nearest = static_cast<float>(settings_.nearest) * radius});
+      atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(), discs);
     }
     // Pixels as they are on average over the directions (many_lods::hemisphereView()).
-    const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.cut.epsilonPx, 1.0);
+    const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.limits.epsilonPx, 1.0);
     radiosity_->shade(frame, *lights_, &*atlas_,
-                      {settings_.bias * double(radius), settings_.slopeBias * pixel});
+                      {settings_.bias * double(radius), settings_.slopeBias * pixel},
+                      inPlace_ ? &inPlace_->countsBuffer() : nullptr);
   }
 
   const gl::Texture& product() const override { return radiosity_->texture(); }
 
   /// Of one further step of the light's motion.
   std::vector<Counter> count(frame::Frame& frame) override {
+    if (inPlace_) {
+      const many_lods::InPlaceCounts counts = inPlace_->counts();
+      return {{"cut_nodes", double(counts.drawn)},
+              {"cut_nodes_per_view", double(counts.drawn) / lights_->count()},
+              {"refused_splits", double(counts.refused)},
+              {"stack_entries", double(counts.deepest)},
+              {"stack_bound", double(inPlace_->stackBound())},
+              {"unfinished_groups", double(counts.unfinished)},
+              {"tree_build_ms", tree_->buildMs()}};
+    }
     findCuts(frame, step_++, true);
     return cutCounters(cut_->control(), lights_->count(), *tree_);
   }
@@ -96,7 +146,9 @@ class InstantRadiosity : public Technique {
  private:
   void findCuts(frame::Frame& frame, int step, bool counting) {
     tree_->update(frame);
-    lights_->make(frame, step, settings_.tilePx, settings_.cut.epsilonPx, double(tree_->tree().leafRadius()));
+    lights_->make(frame, step, settings_.tilePx, settings_.limits.epsilonPx,
+                  double(tree_->tree().leafRadius()));
+    if (!cut_) return;
     const auto scope = frame.passes().open(kCutsPass);
     cut_->update(tree_->tree().nodes(), lights_->views(), counting);
   }
@@ -105,7 +157,8 @@ class InstantRadiosity : public Technique {
   int step_ = 0;
   std::optional<SceneTree> tree_;
   std::optional<VirtualLights> lights_;
-  std::optional<many_lods::MultiCut> cut_;
+  std::optional<many_lods::MultiCut> cut_;         // or
+  std::optional<many_lods::InPlaceCuts> inPlace_;  // this
   std::optional<many_lods::ViewAtlas> atlas_;
   std::optional<Radiosity> radiosity_;
 };
@@ -118,7 +171,7 @@ const RegisteredTechnique<InstantRadiosity> kInstantRadiosityRegistered{
      .source = "Holländer 2013, sections 3.5 and 3.6.1 (HOL-25)",
      .product = ProductKind::Colour,
      .needs = {"area_light"},
-     .counters = cutQuantities(),
+     .counters = radiosityQuantities(),
      .effort = "levels"}};
 
 }  // namespace

@@ -27,14 +27,16 @@ constexpr EnumNames<PointPixels, 3> enumNames(PointPixels) {
 
 struct PointsSettings {
   TreeSettings tree;
-  CutSettings cut{{}, 1.0, 1048576};
+  many_lods::CutMode cuts;
+  CutLimits limits{1.0, 1048576};
   PointPixels pixels = PointPixels::Wide;
   frame::ShadedSetting shading;
   static const SettingsTable<PointsSettings>& table() {
     using S = PointsSettings;
     static const SettingsTable<S> kTable = {
         included(&S::tree),
-        included(&S::cut),
+        {&S::cuts, "cuts", kCutsText, kCutsSource},
+        included(&S::limits),
         {&S::pixels, "pixels",
          "What a pixel keeps of the nearest node: both depth and node in 64 bits (two passes where the "
          "driver "
@@ -66,7 +68,7 @@ class AdaptivePoints : public Technique {
   void prepare(frame::Frame& frame) override {
     tree_.emplace(frame, settings_.tree);
     light_.emplace(frame, tree_->tree(), settings_.shading);
-    cut_.emplace(frame.context(), 1U, tree_->tree().depth(), settings_.cut.capacity(1), settings_.cut.mode);
+    cut_.emplace(frame.context(), 1U, tree_->tree().depth(), settings_.limits.capacity(1), settings_.cuts);
     atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels));
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =
@@ -119,7 +121,7 @@ class AdaptivePoints : public Technique {
     const many_lods::CutView view =
         many_lods::perspectiveView(camera.eye - anchor, camera.target - camera.eye, -camera.up,
                                    {frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()},
-                                   frame.sizePx().y, settings_.cut.epsilonPx, range);
+                                   frame.sizePx().y, settings_.limits.epsilonPx, range);
     views_->write(0, sizeof view, &view);
     cut_->update(tree_->tree().nodes(), *views_, counting);
   }

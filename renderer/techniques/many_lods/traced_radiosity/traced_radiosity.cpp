@@ -25,7 +25,7 @@ class TracedRadiosity : public Technique {
 
   void prepare(frame::Frame& frame) override {
     lights_.emplace(frame, settings_.lights);
-    radiosity_.emplace(frame, true);
+    radiosity_.emplace(frame, Radiosity::Sight::Rays);
   }
   void render(frame::Frame& frame) override {
     lights_->make(frame, step_++, 64, 1.0, 0.0);
