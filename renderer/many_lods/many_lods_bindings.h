@@ -106,6 +106,8 @@ const uint kSplatColoursBuffer = 6u;
 const uint kAtlasEmpty = 0xffffffffu;
 const float kFarthestDepth = 0.99999988079071045f;  // 1 - 2^-23: what lies farther, too
 
+const int kPushPullGroup = 256;
+
 // Cuts drawn in place.
 const int kInPlaceGroup = 256;
 struct InPlaceCounts {  // std430

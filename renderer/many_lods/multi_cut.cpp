@@ -141,12 +141,6 @@ void MultiCut::update(const gl::Buffer& nodes, const gl::Buffer& views, bool cou
   fresh_ = false;
 }
 
-void MultiCut::bindForDrawing() const {
-  list_.bindStorage(kCutListBuffer);
-  control_.bindStorage(kCutControlBuffer);
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.id());
-}
-
 CutControl MultiCut::control() const { return control_.read<CutControl>(0, 1)[0]; }
 
 std::vector<glm::uvec2> MultiCut::list() const {

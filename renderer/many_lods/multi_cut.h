@@ -62,9 +62,8 @@ class MultiCut {
   /// The next update starts from the root.
   void restart() { fresh_ = true; }
 
-  /// Binds list and control for renderer/many_lods/cut_lists.glsl, and the indirect arguments of a dispatch
-  /// over the list (at offset 0 of the bound buffer).
-  void bindForDrawing() const;
+  const gl::Buffer& listBuffer() const { return list_; }        ///< both halves
+  const gl::Buffer& controlBuffer() const { return control_; }  ///< CutControl, then the steps
   int64_t bytes() const;
   uint32_t capacity() const { return capacity_; }
   uint32_t viewCount() const { return views_; }

@@ -52,12 +52,14 @@ void ViewAtlas::clear() const {
   if (winners_) winners_->clearUint(kAtlasEmpty);
 }
 
-void ViewAtlas::draw(const MultiCut& cut, const gl::Buffer& nodes, const gl::Buffer& views,
+void ViewAtlas::draw(const DrawList& what, const gl::Buffer& nodes, const gl::Buffer& views,
                      const Settings& settings, const gl::Buffer* colours) const {
   clear();
   nodes.bindStorage(kCutNodesBuffer);
   views.bindStorage(kCutViewsBuffer);
-  cut.bindForDrawing();
+  what.list.bindStorage(kCutListBuffer);
+  what.control.bindStorage(kCutControlBuffer);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, what.control.id());
   depths_.bindStorage(kSplatDepthsBuffer);
   if (winners_) winners_->bindStorage(kSplatWinnersBuffer);
   if (colours) colours->bindStorage(kSplatColoursBuffer);

@@ -27,6 +27,13 @@ constexpr EnumNames<AtlasForm, 4> enumNames(AtlasForm) {
             {AtlasForm::TwoWords, "two_words"}}}};
 }
 
+/// What is drawn: entries as in a list of cuts, and a CutControl that has their number, their place and the
+/// arguments of a dispatch over them.
+struct DrawList {
+  const gl::Buffer& list;
+  const gl::Buffer& control;
+};
+
 /// Tiles of many views, of one size, drawn from the list of their cuts in compute: each node as the disc that
 /// its sphere projects to (a hemisphere's projection is stereographic, so that it is a disc; in a perspective
 /// view it is one of the middle's size), and at least the pixel that its centre is in. No pixel of another
@@ -43,9 +50,13 @@ class ViewAtlas {
     float nearest = 0.0F;      ///< nodes whose centres are nearer are left out, world units
     float radiusScale = 1.0F;  ///< of discs over spheres
   };
-  /// Clears the tiles and draws what `cut` holds. `colours`: of the nodes, four halves each; TwoWords only.
-  void draw(const MultiCut& cut, const gl::Buffer& nodes, const gl::Buffer& views, const Settings& settings,
+  /// Clears the tiles and draws a list. `colours`: of the nodes, four halves each; TwoWords only.
+  void draw(const DrawList& what, const gl::Buffer& nodes, const gl::Buffer& views, const Settings& settings,
             const gl::Buffer* colours = nullptr) const;
+  void draw(const MultiCut& cut, const gl::Buffer& nodes, const gl::Buffer& views, const Settings& settings,
+            const gl::Buffer* colours = nullptr) const {
+    draw(DrawList{cut.listBuffer(), cut.controlBuffer()}, nodes, views, settings, colours);
+  }
   void clear() const;
 
   AtlasForm form() const { return form_; }
