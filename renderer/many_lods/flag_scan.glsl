@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many invocations of a group before this one have a flag set, and how many in all. FLAG_SCAN: 0: sums by an up and a down
 // sweep in shared memory, 1: ballots of subgroups (KHR_shader_subgroup), 2: ballots by ARB_shader_ballot. FLAG_GROUP: invocations
-// of the group, a power of two. The including shader enables the extensions, before anything else. All of the group call.
+// of the group, a power of two. The including shader enables the extensions before anything else, and includes this below its
+// layout. All of the group call.
 // Source: Holländer 2013, section 3.7.1.
 shared uint flagLine[FLAG_GROUP];
 

@@ -11,9 +11,9 @@
 #endif
 #define FLAG_GROUP kInPlaceGroup
 #include "renderer/many_lods/node_predicate.glsl"
-#include "renderer/many_lods/flag_scan.glsl"
 
 layout(local_size_x = kInPlaceGroup) in;
+#include "renderer/many_lods/flag_scan.glsl"
 layout(std430, binding = kCutNodesBuffer) readonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = kCutViewsBuffer) readonly buffer Views { CutView views[]; };
 layout(std430, binding = kSplatDepthsBuffer) buffer Depths { uint depths[]; };

@@ -7,10 +7,10 @@
 #extension GL_ARB_shader_ballot : require
 #endif
 #define FLAG_GROUP 256
-#include "renderer/many_lods/flag_scan.glsl"
 #include "tests/renderer/many_lods/flag_scan_test_bindings.h"
 
 layout(local_size_x = FLAG_GROUP) in;
+#include "renderer/many_lods/flag_scan.glsl"
 layout(std430, binding = kTestFlagsBuffer) readonly buffer Flags { uint flags[]; };
 layout(std430, binding = kTestCountsBuffer) writeonly buffer Counts { uvec2 counts[]; };
 
