@@ -92,7 +92,7 @@ int64_t beyond(const std::vector<uint8_t>& found, const scene::Mesh& mesh, const
 
 // Positions on the GPU are floats, and its tests allow for kVoxelSlack, both ways and where a plane is cut:
 // what it adds lies within four of them of the mesh, what it lacks within two of the ends of a middle line.
-constexpr double kNear = 4.0 * kVoxelSlack, kEnds = 2.0 * kVoxelSlack;
+const double kNear = 4.0 * kVoxelSlack, kEnds = 2.0 * kVoxelSlack;
 
 TEST_F(VoxelizerTest, CoversASoupAsExactSetsSay) {
   for (const int64_t seed : {1, 2, 3}) {
