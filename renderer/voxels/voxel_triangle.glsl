@@ -84,11 +84,15 @@ int placeMet(VoxelTriangle t, ivec2 column, int axis) {
   return clamp(int(floor(place)), 0, size - 1);
 }
 
+// Height below which a triangle's plane, half a voxel beyond its border, is known no better than to the slack.
+const float kSliver = 0.05;
+
 // Voxels of a column that the triangle may meet: first and last.
 ivec2 placesAround(VoxelTriangle t, ivec2 column, int axis) {
   float low = t.low[axis], high = t.high[axis];
   const float along = abs(t.normal[axis]);
-  if (along > 0.0) {
+  const vec3 longest = t.high - t.low;
+  if (along > kSliver * max(longest.x, max(longest.y, longest.z))) {
     const vec2 n = abs(across(t.normal, axis));
     const float middle = placeAtMiddle(t, vec2(column) + 0.5, axis), half_ = (0.5 + kVoxelSlack) * (n.x + n.y) / along;
     low = max(low, middle - half_);
@@ -115,7 +119,9 @@ bool meetsVoxel(VoxelTriangle t, ivec3 voxel) {
   const float half_ = 0.5 + kVoxelSlack;
   if (any(greaterThan(t.low - middle, vec3(half_))) || any(lessThan(t.high - middle, vec3(-half_)))) return false;
   const vec3 a = t.a - middle, b = t.b - middle, c = t.c - middle;
-  const vec3 size = abs(t.normal);
-  if (abs(dot(t.normal, a)) > half_ * (size.x + size.y + size.z)) return false;
+  // All corners: of a sliver the normal is rounding, and its plane holds none of them exactly.
+  const vec3 size = abs(t.normal), at = vec3(dot(t.normal, a), dot(t.normal, b), dot(t.normal, c));
+  const float reach = half_ * (size.x + size.y + size.z);
+  if (min(at.x, min(at.y, at.z)) > reach || max(at.x, max(at.y, at.z)) < -reach) return false;
   return !isApartAcross(b - a, a, c, half_) && !isApartAcross(c - b, b, a, half_) && !isApartAcross(a - c, c, b, half_);
 }
