@@ -63,9 +63,10 @@ Scene buildTessellatedCorner(const TessellatedCornerSettings& settings) {
   addPart(scene, "left_wall", cardGrid(y + z, y, z, cells), {0.6F, 0.58F, 0.55F}, Role::ReceiverOnly);
   addPart(scene, "back_wall", cardGrid(x + y, x, y, cells), {0.55F, 0.58F, 0.6F}, Role::ReceiverOnly);
   addPart(scene, "lumps", lumpsInCorner(settings), {0.7F, 0.62F, 0.5F});
-  const glm::dvec3 middle(0.4 * kCornerSide);
-  scene.lights = {lightTowards({4.0, 5.0, 3.5}, middle, glm::dvec2(kLightSide))};
-  setStillCamera(scene, orbitCamera(middle, 6.0, 45.0, 32.0));
+  const glm::dvec3 middle(0.25 * kCornerSide);
+  scene.lights = {lightTowards({2.2, 5.0, 4.5}, middle, glm::dvec2(kLightSide))};
+  // Floor and walls fill the picture.
+  setStillCamera(scene, orbitCamera(middle, 2.6, 45.0, 32.0));
   return scene;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ambient occlusion of vertices from visibility fields on the CPU. Source: Gaitatzes 2012, section 4.6.1,
 // Fig. 35 and Table 1.
+#include "experiments/base/error.h"
 #include "renderer/techniques/visibility_fields/vertex_occlusion/vertex_technique.h"
 #include "renderer/visibility_fields/cpu_field.h"
 
 namespace limen::techniques {
 namespace {
+
+constexpr double kMostBytes = 4.0 * (1 << 30);
 
 struct VertexFieldSettings {
   VertexRays rays;
@@ -25,12 +28,17 @@ class VertexFieldOcclusion : public VertexTechnique {
 
  protected:
   int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
+    const double bytes = 4.0 * double(objects.size()) * form_.positions * form_.directions * form_.directions;
+    if (bytes > kMostBytes)
+      throw Error("fields of " + std::to_string(objects.size()) + " objects take " +
+                      std::to_string(static_cast<int64_t>(bytes)) + " bytes of main memory",
+                  "directions", "store fewer positions or directions");
     fields_.clear();
     slack_ = 0.5 * visibility_fields::fieldSpacing(form_);
     for (const visibility_fields::RigidObject& object : objects) fields_.emplace_back(object, form_);
-    int64_t bytes = 0;
-    for (const visibility_fields::CpuField& field : fields_) bytes += 4 * field.rayCount();
-    return bytes;
+    int64_t held = 0;
+    for (const visibility_fields::CpuField& field : fields_) held += 4 * field.rayCount();
+    return held;
   }
   void distances(glm::dvec3 origin, std::span<const glm::dvec3> directions, double,
                  std::span<double> out) const override {
