@@ -110,6 +110,7 @@ const int kPushPullGroup = 256;
 
 // Cuts drawn in place.
 const int kInPlaceGroup = 256;
+const int kSequentialGroup = 32;
 struct InPlaceCounts {  // std430
   uint deepest;  // most entries that a stack held
   uint refused;  // splits that a stack had no room for
