@@ -23,7 +23,7 @@ struct InPlaceSettings {
   static constexpr const char *kKind = "in_place",
                               *kSummary = "from the root, drawn where they are found, without a list";
   int finders = 128;
-  int viewsPerGroup = 16;
+  int viewsPerGroup = 4;
   int finished = 4;
   FlagScan scan = FlagScan::Ballot;
   bool discard = false;

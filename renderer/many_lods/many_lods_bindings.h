@@ -110,12 +110,13 @@ const int kPushPullGroup = 256;
 
 // Cuts drawn in place.
 const int kInPlaceGroup = 256;
+const int kSequentialGroup = 32;
 struct InPlaceCounts {  // std430
-  uint deepest;  // most entries that a stack held
-  uint refused;  // splits that a stack had no room for
-  uint drawn;    // nodes, of all views
-  uint rounds;   // of all groups
-  uint unfinished;  // groups that a software renderer's limit on loops stopped: tiles are worthless
+  uint deepest;         // most entries that a stack held
+  uint refused;         // splits that a stack had no room for
+  uint drawn;           // nodes, of all views
+  uint rounds;          // of all groups
+  uint unfinished;      // groups that a software renderer's limit on loops stopped: tiles are worthless
   uint unused0, unused1, unused2;
 };
 #ifdef __cplusplus

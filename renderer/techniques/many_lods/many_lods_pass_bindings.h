@@ -45,6 +45,22 @@ const uint kRadiosityAlbedosUnit = 2u;
 const uint kRadiosityIdsUnit = 3u;
 const uint kRadiosityImage = 0u;
 
+// Light of leaves from the scene's light. 0, 1, 2 and 5 are the scene's, 6 and 7 the rays'.
+const uint kLitSamplesBuffer = 3u;
+const uint kLitColoursBuffer = 4u;
+
+// What views of receivers gather.
+const int kGatherGroup = 64;
+const uint kGatherViewsBuffer = 0u;
+const uint kGatherDepthsBuffer = 1u;
+const uint kGatherWinnersBuffer = 2u;
+const uint kGatherColoursBuffer = 3u;
+const uint kGatheredBuffer = 4u;
+const uint kGatherPositionsUnit = 0u;
+const uint kGatherNormalsUnit = 1u;
+const uint kGatherAlbedosUnit = 2u;
+const uint kGatherImage = 0u;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "renderer/many_lods/in_place_cuts.h"
+#include "renderer/many_lods/sequential_cuts.h"
 #include "renderer/techniques/many_lods/radiosity.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
 
@@ -17,17 +18,18 @@ namespace {
 
 constexpr const char* kInPlacePass = "many_lods/in_place";
 
-using ViewCuts = std::variant<many_lods::IncrementalCuts, many_lods::LazyCuts, many_lods::BasicCuts,
-                              many_lods::LiteralCuts, many_lods::InPlaceSettings>;
+using ViewCuts =
+    std::variant<many_lods::IncrementalCuts, many_lods::LazyCuts, many_lods::BasicCuts,
+                 many_lods::LiteralCuts, many_lods::InPlaceSettings, many_lods::SequentialSettings>;
 
 /// Of cuts that are kept in a list.
 many_lods::CutMode listed(const ViewCuts& cuts) {
   return std::visit(
       [](const auto& form) -> many_lods::CutMode {
-        if constexpr (std::is_same_v<std::decay_t<decltype(form)>, many_lods::InPlaceSettings>)
-          return many_lods::BasicCuts{};
-        else
+        if constexpr (std::is_convertible_v<decltype(form), many_lods::CutMode>)
           return form;
+        else
+          return many_lods::BasicCuts{};
       },
       cuts);
 }
@@ -94,6 +96,8 @@ class InstantRadiosity : public Technique {
     const int depth = tree_->tree().depth();
     if (const auto* inPlace = std::get_if<many_lods::InPlaceSettings>(&settings_.cuts)) {
       inPlace_.emplace(frame.context(), lights_->count(), depth, *inPlace);
+    } else if (std::holds_alternative<many_lods::SequentialSettings>(settings_.cuts)) {
+      sequential_.emplace(frame.context(), lights_->count(), depth);
     } else {
       cut_.emplace(frame.context(), lights_->count(), depth, settings_.limits.capacity(lights_->count()),
                    listed(settings_.cuts));
@@ -101,7 +105,7 @@ class InstantRadiosity : public Technique {
     }
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
                    many_lods::AtlasForm::Depth);
-    radiosity_.emplace(frame, inPlace_ ? Radiosity::Sight::InPlaceAtlas : Radiosity::Sight::Atlas);
+    radiosity_.emplace(frame, cut_ ? Radiosity::Sight::Atlas : Radiosity::Sight::InPlaceAtlas);
     frame.passes().setBytesHeld(cut_ ? kSplatPass : kInPlacePass, atlas_->bytes());
   }
 
@@ -114,6 +118,9 @@ class InstantRadiosity : public Technique {
     if (inPlace_) {
       const auto scope = frame.passes().open(kInPlacePass);
       inPlace_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
+    } else if (sequential_) {
+      const auto scope = frame.passes().open(kInPlacePass);
+      sequential_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
     } else {
       const auto scope = frame.passes().open(kSplatPass);
       atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(), discs);
@@ -122,13 +129,23 @@ class InstantRadiosity : public Technique {
     const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.limits.epsilonPx, 1.0);
     radiosity_->shade(frame, *lights_, &*atlas_,
                       {settings_.bias * double(radius), settings_.slopeBias * pixel},
-                      inPlace_ ? &inPlace_->countsBuffer() : nullptr);
+                      inPlace_      ? &inPlace_->countsBuffer()
+                      : sequential_ ? &sequential_->countsBuffer()
+                                    : nullptr);
   }
 
   const gl::Texture& product() const override { return radiosity_->texture(); }
 
   /// Of one further step of the light's motion.
   std::vector<Counter> count(frame::Frame& frame) override {
+    if (sequential_) {
+      const many_lods::InPlaceCounts counts = sequential_->counts();
+      return {{"cut_nodes", double(counts.drawn)},
+              {"cut_nodes_per_view", double(counts.drawn) / lights_->count()},
+              {"refused_splits", 0.0},
+              {"unfinished_groups", double(counts.unfinished)},
+              {"tree_build_ms", tree_->buildMs()}};
+    }
     if (inPlace_) {
       const many_lods::InPlaceCounts counts = inPlace_->counts();
       return {{"cut_nodes", double(counts.drawn)},
@@ -157,8 +174,10 @@ class InstantRadiosity : public Technique {
   int step_ = 0;
   std::optional<SceneTree> tree_;
   std::optional<VirtualLights> lights_;
-  std::optional<many_lods::MultiCut> cut_;         // or
-  std::optional<many_lods::InPlaceCuts> inPlace_;  // this
+  // One of these.
+  std::optional<many_lods::MultiCut> cut_;
+  std::optional<many_lods::InPlaceCuts> inPlace_;
+  std::optional<many_lods::SequentialCuts> sequential_;
   std::optional<many_lods::ViewAtlas> atlas_;
   std::optional<Radiosity> radiosity_;
 };
