@@ -145,21 +145,25 @@ const SettingsTable<GridTracer>& GridTracer::table() {
 
 const SettingsTable<FieldUse>& FieldUse::table() {
   using S = FieldUse;
-  static const SettingsTable<S> kTable = {{&S::slack,
-                                           "slack",
-                                           {0.0, 20.0},
-                                           "spacings",
-                                           "From inside an object's sphere: by how much a blocker must lie "
-                                           "before the origin so that it is not the "
-                                           "surface that the ray starts on, in spacings of the field's rays",
-                                           "Gaitatzes 2012, section 4.4.2 (without a value)"},
-                                          {&S::spheres,
-                                           "spheres",
-                                           {1, 64},
-                                           "",
-                                           "Spheres with a field each that cover an object which is long or "
-                                           "hollow, at most; 1: one for every object",
-                                           "Gaitatzes 2012, section 4.8 (suggested)"}};
+  static const SettingsTable<S> kTable = {
+      {&S::slack,
+       "slack",
+       {0.0, 20.0},
+       "spacings",
+       "From inside an object's sphere: by how much a blocker must lie "
+       "before the origin so that it is not the "
+       "surface that the ray starts on, in spacings of the field's rays",
+       "Gaitatzes 2012, section 4.4.2 (without a value)"},
+      {&S::spheres,
+       "spheres",
+       {1, 64},
+       "",
+       "Spheres with a field each that cover an object which is long or "
+       "hollow, at most; 1: one for every object",
+       "Gaitatzes 2012, section 4.8 (suggested)"},
+      {&S::folder, "folder",
+       "Folder in which fields are kept by their content, so that the next run reads "
+       "them: its preparation time is that of reading; none: made each time"}};
   return kTable;
 }
 
@@ -193,7 +197,7 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  fields_.emplace(frame.context(), objects, settings_.form, settings_.tolerance);
+  fields_.emplace(frame.context(), objects, settings_.form, settings_.tolerance, settings_.use.folder);
   objectOf_.emplace(whole.objectOf);
   std::vector<vf::Pose> poses;
   for (const vf::RigidObject& object : objects) poses.push_back(vf::VisibilityFields::poseOf(object));
@@ -221,6 +225,12 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
           {"field_run_length_mib", double(fields_->runLengthBytes()) / (1 << 20)},
           {"field_rays", double(fields_->rayCount())},
           {"field_objects", double(fields_->objectCount())}};
+}
+
+std::vector<std::string> FieldReader::remarks() const {
+  if (!fields_ || fields_->fieldsRead() == 0) return {};
+  return {std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
+          " fields were read from '" + settings_.use.folder + "' and not made: preparation took less time"};
 }
 
 std::vector<Quantity> FieldReader::quantities() {

@@ -63,6 +63,7 @@ struct ReceiverRays {
 struct FieldUse {
   double slack = 1.0;
   int spheres = 1;
+  std::string folder;
   static const SettingsTable<FieldUse>& table();
 };
 
@@ -96,6 +97,7 @@ class FieldReader {
     return countersOf(counts, frame);
   }
   static std::vector<Quantity> quantities();
+  std::vector<std::string> remarks() const;
 
  private:
   static gl::Buffer emptyCounts();

@@ -43,6 +43,7 @@ class FieldTechnique : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     return reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
   }
+  std::vector<std::string> remarks() const override { return reader_.remarks(); }
 
  private:
   void run(frame::Frame& frame, const gl::Program& program, const gl::Buffer* counts) {

@@ -119,6 +119,7 @@ class FieldReflections : public Technique {
   }
 
   const gl::Texture& product() const override { return lobes_.picture(); }
+  std::vector<std::string> remarks() const override { return reader_.remarks(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     const frame::MirrorRays& exact = frame.get<frame::MirrorRays>();
