@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/gtc/packing.hpp>
 #include <span>
 #include <string>
 
@@ -35,6 +36,21 @@ std::span<const uint8_t> bytesOf(const std::vector<uint32_t>& words) {
   return {reinterpret_cast<const uint8_t*>(words.data()), words.size() * sizeof(uint32_t)};
 }
 
+/// Of each triangle's corners, as make_field.comp.glsl reads them.
+std::vector<glm::vec4> cornersOf(const RigidObject& object) {
+  std::vector<glm::vec4> corners;
+  for (const glm::uvec3 t : object.triangles) {
+    const glm::vec3 a = object.vertices[t.x];
+    const glm::vec3 across = glm::cross(object.vertices[t.y] - a, object.vertices[t.z] - a);
+    const glm::vec3 flat = glm::dot(across, across) > 0.0F ? glm::normalize(across) : glm::vec3(0.0F);
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::vec3 own = object.normals.empty() ? glm::vec3(0.0F) : object.normals[t[corner]];
+      corners.emplace_back(glm::dot(own, own) > 0.0F ? own : flat, flat[corner]);
+    }
+  }
+  return corners;
+}
+
 std::vector<glm::vec4> repeated(const std::vector<glm::vec3>& points, size_t times) {
   std::vector<glm::vec4> out;
   out.reserve(points.size() * times);
@@ -53,6 +69,10 @@ VisibilityFields::VisibilityFields(gl::Context& context, const std::vector<Rigid
       sliceSide_(sliceSideFor(int64_t{mapsPerObject()} * objectCount_, tileOf(form))),
       maps_(repeated(positionMap_.points(), objects.size())),
       objects_(static_cast<int64_t>(objects.size() * sizeof(FieldObject)), nullptr) {
+  for (const RigidObject& object : objects) {
+    owners_.push_back(object.owner);
+    albedos_.push_back(glm::packUnorm4x8(glm::vec4(object.albedo, 0.0F)));
+  }
   const int64_t maps = int64_t{mapsPerObject()} * objectCount_, each = mapsPerSlice(sliceSide_, tileOf(form));
   const int64_t slices = std::max<int64_t>((maps + each - 1) / each, 1);
   if (slices > kMostSlices)
@@ -75,12 +95,14 @@ void VisibilityFields::make(gl::Context& context, const RigidObject& object, uin
   const glm::ivec2 tile = tileOf(form_);
   const int wordsPerMap = tile.x * tile.y, firstMap = static_cast<int>(index) * mapsPerObject();
   const gl::Buffer cutShort(std::vector<uint32_t>{0});
-  std::optional<gl::Buffer> sums;
+  std::optional<gl::Buffer> sums, corners;
+  if (form_.distanceBits > 0) corners.emplace(cornersOf(object));
   if (form_.bits == 1) sums.emplace(int64_t{8} * wordsPerMap * mapsPerObject(), nullptr);
   rays.bind(program);
   maps_.bindStorage(kFieldMapsBuffer);
   cutShort.bindStorage(kFieldCutShortBuffer);
   if (sums) sums->bindStorage(kFieldSumsBuffer);
+  if (corners) corners->bindStorage(kFieldCornersBuffer);
   words_->bindImage(kFieldWordsImage, gl::Access::Write);
   program.set("fieldSliceSide", sliceSide_);
   program.set("firstMap", firstMap);
@@ -111,6 +133,7 @@ void VisibilityFields::place(const std::vector<Pose>& poses, glm::dvec3 anchor) 
     object.radius = static_cast<float>(pose.radius);
     object.axisX = glm::vec4(pose.axes[0], 0.0), object.axisY = glm::vec4(pose.axes[1], 0.0);
     object.axisZ = glm::vec4(pose.axes[2], 0.0);
+    object.owner = owners_[objects.size()], object.albedo = albedos_[objects.size()];
     object.firstMap = static_cast<uint32_t>(objects.size()) * static_cast<uint32_t>(mapsPerObject());
     objects.push_back(object);
   }
@@ -195,6 +218,13 @@ std::vector<float> VisibilityFields::readShares(uint32_t object) const {
       for (int x = 0; x < form_.directions; ++x) {
         const uint32_t word =
             words[static_cast<size_t>((map * form_.directions + y) * form_.wordsPerRow() + x / perWord)];
+        if (form_.distanceBits > 0) {
+          const uint32_t code = word & fieldMissCode(form_.distanceBits);
+          out.push_back(code == fieldMissCode(form_.distanceBits)
+                            ? -1.0F
+                            : float(code) * fieldCodeStep(form_.distanceBits));
+          continue;
+        }
         if (form_.bits == 32) {
           out.push_back(std::bit_cast<float>(word));
           continue;

@@ -62,6 +62,7 @@ class VisibilityFields {
   FieldForm form_;
   PositionMap positionMap_;
   uint32_t objectCount_;
+  std::vector<uint32_t> owners_, albedos_;
   int sliceSide_;
   std::optional<gl::Texture> words_;
   gl::Buffer maps_, objects_;

@@ -10,6 +10,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/visibility_fields/field_bindings.h"
+#include "renderer/visibility_fields/sphere_cover.h"
 
 namespace limen::techniques {
 namespace vf = visibility_fields;
@@ -17,24 +18,38 @@ namespace {
 
 constexpr int64_t kMostSoftwareSteps = 60000;
 
-vf::RigidObjects objectsOf(const frame::Frame& frame, vf::ObjectForm form) {
-  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), form);
-  if (objects.objects.size() > kMostFieldObjects)
-    throw Error("the scene has " + std::to_string(objects.objects.size()) + " objects; at most " +
-                    std::to_string(kMostFieldObjects) + " can have visibility fields",
-                "objects", "use 'parts', or a smaller scene");
+void checkCount(const std::vector<vf::RigidObject>& objects, const char* mend) {
+  if (objects.size() > vf::kMostFieldObjects)
+    throw Error("the scene has " + std::to_string(objects.size()) +
+                    " objects or pieces of objects; at most " + std::to_string(vf::kMostFieldObjects) +
+                    " can have visibility fields",
+                "objects", mend);
+}
+
+vf::RigidObjects objectsOf(const frame::Frame& frame, const vf::ObjectSetting& setting) {
+  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), setting);
+  checkCount(objects.objects, "use 'auto' or 'parts', or a smaller scene");
   return objects;
 }
 
-/// Numbered as in the scene, without those of no object.
-ray_tracing::RayScene objectRays(frame::Frame& frame, const vf::RigidObjects& objects) {
+std::vector<vf::RigidObject> covered(const std::vector<vf::RigidObject>& objects, int spheres) {
+  std::vector<vf::RigidObject> out;
+  for (const vf::RigidObject& object : objects)
+    for (vf::RigidObject& piece : vf::coverWithSpheres(object, spheres)) out.push_back(std::move(piece));
+  checkCount(out, "use fewer 'spheres', or a smaller scene");
+  return out;
+}
+
+/// Numbered as in the scene, without those of no object, or without those of any.
+ray_tracing::RayScene objectRays(frame::Frame& frame, const vf::RigidObjects& objects,
+                                 bool ofObjects = true) {
   const scene::Mesh& mesh = frame.scene().mesh;
   std::vector<glm::vec3> vertices;
   for (const glm::dvec3 p : mesh.positions) vertices.emplace_back(p - frame.gpuScene().anchor());
   std::vector<glm::uvec3> triangles = mesh.triangles;
   // Without area: left out of the tree, but counted.
   for (size_t i = 0; i < triangles.size(); ++i)
-    if (objects.objectOf[i] == vf::kFieldNoObject) triangles[i] = glm::uvec3(0);
+    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) triangles[i] = glm::uvec3(0);
   return {frame.context(), vertices, triangles};
 }
 
@@ -52,7 +67,7 @@ const SettingsTable<ReceiverRays>& ReceiverRays::table() {
       {&S::seed, "seed", {0, 1000000}, "", "Seed of that choice"},
       {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
        "Gaitatzes 2012, section 4.4.2"},
-      {&S::objects, "objects", "What of the scene is one rigid object"}};
+      objectsBinding(&S::objects)};
   return kTable;
 }
 
@@ -82,18 +97,31 @@ void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) co
   program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
 }
 
+const SettingsTable<FieldUse>& FieldUse::table() {
+  using S = FieldUse;
+  static const SettingsTable<S> kTable = {{&S::slack,
+                                           "slack",
+                                           {0.0, 20.0},
+                                           "spacings",
+                                           "From inside an object's sphere: by how much a blocker must lie "
+                                           "before the origin so that it is not the "
+                                           "surface that the ray starts on, in spacings of the field's rays",
+                                           "Gaitatzes 2012, section 4.4.2 (without a value)"},
+                                          {&S::spheres,
+                                           "spheres",
+                                           {1, 64},
+                                           "",
+                                           "Spheres with a field each that cover an object which is long or "
+                                           "hollow, at most; 1: one for every object",
+                                           "Gaitatzes 2012, section 4.8 (suggested)"}};
+  return kTable;
+}
+
 const SettingsTable<FieldReading>& FieldReading::table() {
   using S = FieldReading;
   static const SettingsTable<S> kTable = {
       included(&S::form),
-      {&S::slack,
-       "slack",
-       {0.0, 20.0},
-       "spacings",
-       "From inside an object's sphere: by how much a blocker must lie "
-       "before the origin so that it is not the "
-       "surface that the ray starts on, in spacings of the field's rays",
-       "Gaitatzes 2012, section 4.4.2 (without a value)"},
+      included(&S::use),
       {&S::tolerance,
        "tolerance",
        {0, 64},
@@ -109,17 +137,20 @@ void FieldReading::check() const {
                 "leave out 'tolerance', or give bits: 8");
 }
 
-void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays) {
-  const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  const int64_t steps = rays.rays * static_cast<int64_t>(objects.objects.size() + 2);
+void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth) {
+  const vf::RigidObjects whole = objectsOf(frame, rays.objects);
+  std::vector<vf::RigidObject> objects = covered(whole.objects, settings_.use.spheres);
+  if (!smooth)
+    for (vf::RigidObject& object : objects) object.normals.clear();
+  const int64_t steps = rays.rays * static_cast<int64_t>(objects.size() + 2);
   if (frame.context().device().software && steps > kMostSoftwareSteps)
-    throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.objects.size()) +
+    throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  fields_.emplace(frame.context(), objects.objects, settings_.form, settings_.tolerance);
-  objectOf_.emplace(objects.objectOf);
+  fields_.emplace(frame.context(), objects, settings_.form, settings_.tolerance);
+  objectOf_.emplace(whole.objectOf);
   std::vector<vf::Pose> poses;
-  for (const vf::RigidObject& object : objects.objects) poses.push_back(vf::VisibilityFields::poseOf(object));
+  for (const vf::RigidObject& object : objects) poses.push_back(vf::VisibilityFields::poseOf(object));
   fields_->place(poses, frame.gpuScene().anchor());
 }
 
@@ -130,7 +161,7 @@ void FieldReader::bind(const gl::Program& program) const {
   // directions, whose discs have the area pi together, sqrt(pi) / directions at the distance of a radius.
   const double spacing = std::sqrt(4.0 * M_PI / double(fields_->positionMap().points().size())) +
                          std::sqrt(M_PI) / settings_.form.directions;
-  program.set("slack", static_cast<float>(0.5 * settings_.slack * spacing));
+  program.set("slack", static_cast<float>(0.5 * settings_.use.slack * spacing));
 }
 
 gl::Buffer FieldReader::emptyCounts() {
@@ -159,6 +190,10 @@ std::vector<Quantity> FieldReader::quantities() {
           {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
            "Gaitatzes 2012, section 4.4.1"},
           {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"}};
+}
+
+ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
+  return objectRays(frame, objectsOf(frame, rays.objects), false);
 }
 
 void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays) {

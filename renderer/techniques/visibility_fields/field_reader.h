@@ -14,8 +14,10 @@
 
 namespace limen::techniques {
 
-/// Most objects of a scene that have fields.
-inline constexpr size_t kMostFieldObjects = 256;
+template <class S>
+Binding<S> objectsBinding(visibility_fields::ObjectSetting S::*member) {
+  return {member, "objects", "What of the scene is one rigid object", "bench (auto)"};
+}
 
 /// Rays a pixel, its receiver and the objects that may block them: the same for a field and for the tracer
 /// that it is compared with.
@@ -24,7 +26,7 @@ struct ReceiverRays {
   bool turned = false;
   int64_t seed = 1;
   bool selfOcclusion = true;
-  visibility_fields::ObjectForm objects = visibility_fields::ObjectForm::Parts;
+  visibility_fields::ObjectSetting objects;
   static const SettingsTable<ReceiverRays>& table();
   /// Throws Error unless `rays` is a square number.
   void check() const;
@@ -36,10 +38,17 @@ struct ReceiverRays {
   void configure(const gl::Program& program, frame::Frame& frame) const;
 };
 
+/// How fields are placed around objects and read.
+struct FieldUse {
+  double slack = 1.0;
+  int spheres = 1;
+  static const SettingsTable<FieldUse>& table();
+};
+
 /// How fields are made and read.
 struct FieldReading {
   visibility_fields::FieldForm form;
-  double slack = 1.0;
+  FieldUse use;
   int tolerance = 0;
   static const SettingsTable<FieldReading>& table();
   /// Throws Error if there is a tolerance for codes of other than 8 bits.
@@ -51,7 +60,8 @@ class FieldReader {
  public:
   explicit FieldReader(const FieldReading& settings) : settings_(settings) {}
   /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
-  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  /// `smooth`: fields with normals have those of vertices.
+  void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true);
   gl::ShaderDefines defines() const { return settings_.form.defines(); }
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
@@ -89,5 +99,8 @@ class ObjectTracer {
   std::optional<ray_tracing::RayScene> rays_;
   std::optional<gl::Buffer> objectOf_;
 };
+
+/// The triangles that belong to no object, numbered as in the scene.
+ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays);
 
 }  // namespace limen::techniques

@@ -338,11 +338,11 @@ TEST(Objects, ArePartsOrConnectedPieces) {
       .name = "boxes", .firstTriangle = 2, .triangleCount = static_cast<uint32_t>(two.triangles.size())};
   scene::append(scene.mesh, two);
   scene.parts = {ground, part};
-  const RigidObjects parts = rigidObjectsOf(scene, ObjectForm::Parts);
+  const RigidObjects parts = rigidObjectsOf(scene, PartObjects{});
   ASSERT_EQ(parts.objects.size(), 1U);
   EXPECT_EQ(parts.objectOf[0], 0xffffffffU);
   EXPECT_EQ(parts.objectOf[2], 0U);
-  const RigidObjects pieces = rigidObjectsOf(scene, ObjectForm::Pieces);
+  const RigidObjects pieces = rigidObjectsOf(scene, PieceObjects{});
   ASSERT_EQ(pieces.objects.size(), 2U);
   for (size_t i = 2; i < pieces.objectOf.size(); ++i) EXPECT_EQ(pieces.objectOf[i], i < 14 ? 0U : 1U);
 }
