@@ -29,6 +29,8 @@ const uint kLobeDirectionsImage = 4u;
 const uint kLobeHitsImage = 5u;
 const uint kLobeReflectedImage = 6u;
 
+const uint kVertexValuesBuffer = 2u;  // float a vertex of the scene, techniques of vertices
+
 const uint kFieldCountsBuffer = 5u;  // kFieldCountSlots numbers of look-ups
 const int kFieldCountSlots = 64;
 

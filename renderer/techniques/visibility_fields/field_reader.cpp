@@ -9,6 +9,7 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+#include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/sphere_cover.h"
 
@@ -24,12 +25,6 @@ void checkCount(const std::vector<vf::RigidObject>& objects, const char* mend) {
                     " objects or pieces of objects; at most " + std::to_string(vf::kMostFieldObjects) +
                     " can have visibility fields",
                 "objects", mend);
-}
-
-vf::RigidObjects objectsOf(const frame::Frame& frame, const vf::ObjectSetting& setting) {
-  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), setting);
-  checkCount(objects.objects, "use 'auto' or 'parts', or a smaller scene");
-  return objects;
 }
 
 std::vector<vf::RigidObject> covered(const std::vector<vf::RigidObject>& objects, int spheres) {
@@ -58,6 +53,12 @@ const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel chann
 }
 
 }  // namespace
+
+vf::RigidObjects objectsOf(const frame::Frame& frame, const vf::ObjectSetting& setting) {
+  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), setting);
+  checkCount(objects.objects, "use 'auto' or 'parts', or a smaller scene");
+  return objects;
+}
 
 const SettingsTable<ReceiverRays>& ReceiverRays::table() {
   using S = ReceiverRays;
@@ -157,11 +158,7 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
 void FieldReader::bind(const gl::Program& program) const {
   fields_->bind(program);
   objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
-  // In radii: neighbouring positions are sqrt(4 pi / positions) apart on average, and rays of neighbouring
-  // directions, whose discs have the area pi together, sqrt(pi) / directions at the distance of a radius.
-  const double spacing = std::sqrt(4.0 * M_PI / double(fields_->positionMap().points().size())) +
-                         std::sqrt(M_PI) / settings_.form.directions;
-  program.set("slack", static_cast<float>(0.5 * settings_.use.slack * spacing));
+  program.set("slack", static_cast<float>(0.5 * settings_.use.slack * vf::fieldSpacing(settings_.form)));
 }
 
 gl::Buffer FieldReader::emptyCounts() {

@@ -100,6 +100,10 @@ class ObjectTracer {
   std::optional<gl::Buffer> objectOf_;
 };
 
+/// The scene's objects. Throws Error if there are too many.
+visibility_fields::RigidObjects objectsOf(const frame::Frame& frame,
+                                          const visibility_fields::ObjectSetting& setting);
+
 /// The triangles that belong to no object, numbered as in the scene.
 ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays);
 

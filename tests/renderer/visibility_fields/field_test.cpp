@@ -9,6 +9,7 @@
 #include "renderer/scene/shapes.h"
 #include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_batch.h"
+#include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/map_functions.h"
 #include "tests/renderer/gl/gl_fixture.h"
 
@@ -337,6 +338,7 @@ TEST(Objects, ArePartsOrConnectedPieces) {
   scene::Part part{
       .name = "boxes", .firstTriangle = 2, .triangleCount = static_cast<uint32_t>(two.triangles.size())};
   scene::append(scene.mesh, two);
+  scene.materials.emplace_back();
   scene.parts = {ground, part};
   const RigidObjects parts = rigidObjectsOf(scene, PartObjects{});
   ASSERT_EQ(parts.objects.size(), 1U);
@@ -345,6 +347,30 @@ TEST(Objects, ArePartsOrConnectedPieces) {
   const RigidObjects pieces = rigidObjectsOf(scene, PieceObjects{});
   ASSERT_EQ(pieces.objects.size(), 2U);
   for (size_t i = 2; i < pieces.objectOf.size(); ++i) EXPECT_EQ(pieces.objectOf[i], i < 14 ? 0U : 1U);
+  // As pieces up to the limit, as a part beyond it.
+  EXPECT_EQ(rigidObjectsOf(scene, AutoObjects{2}).objectOf, pieces.objectOf);
+  EXPECT_EQ(rigidObjectsOf(scene, AutoObjects{1}).objectOf, parts.objectOf);
+}
+
+// Parts of many pieces each, all within their own limit: those that would leave no room for the parts to come
+// are one object.
+TEST(Objects, AutoKeepsRoomForEveryPart) {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  for (int part = 0; part < 20; ++part) {
+    scene::Mesh mesh;
+    for (int piece = 0; piece < 30; ++piece)
+      scene::append(
+          mesh, scene::box(glm::dvec3(3 * piece, 3 * part, 0), glm::dvec3(3 * piece + 1, 3 * part + 1, 1)));
+    scene.parts.push_back({.name = "boxes",
+                           .firstTriangle = static_cast<uint32_t>(scene.mesh.triangles.size()),
+                           .triangleCount = static_cast<uint32_t>(mesh.triangles.size())});
+    scene::append(scene.mesh, mesh);
+  }
+  const RigidObjects objects = rigidObjectsOf(scene, AutoObjects{});
+  // 8 parts of 30 pieces, and 12 whole: a ninth in pieces would make 270 of 256.
+  EXPECT_EQ(objects.objects.size(), 8U * 30U + 12U);
+  EXPECT_EQ(std::count(objects.objectOf.begin(), objects.objectOf.end(), kFieldNoObject), 0);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of visibility_fields/vertex_occlusion, traced by Embree: a ray caster with a bounding hierarchy on the CPU. Source:
-// Gaitatzes 2012, section 4.6 (BL-01).
+// The rays of visibility_fields/vertex_occlusion, traced by Embree: a ray caster with a bounding hierarchy on
+// the CPU. Source: Gaitatzes 2012, section 4.6 (BL-01).
 #include <optional>
 
 #include "renderer/techniques/visibility_fields/vertex_occlusion/vertex_technique.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ambient occlusion of vertices from visibility fields on the CPU. Source: Gaitatzes 2012, section 4.6.1, Fig. 35 and
-// Table 1.
+// Ambient occlusion of vertices from visibility fields on the CPU. Source: Gaitatzes 2012, section 4.6.1,
+// Fig. 35 and Table 1.
 #include "renderer/techniques/visibility_fields/vertex_occlusion/vertex_technique.h"
 #include "renderer/visibility_fields/cpu_field.h"
 

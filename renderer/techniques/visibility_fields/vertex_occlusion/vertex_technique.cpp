@@ -44,12 +44,15 @@ std::vector<OccludedVertex> receivingVertices(const scene::Scene& scene) {
 
 const SettingsTable<VertexRays>& VertexRays::table() {
   using S = VertexRays;
-  static const SettingsTable<S> kTable = {
-      {&S::rays, "rays", {1, 4096}, "rays", "Rays per vertex, a square number",
-       "Gaitatzes 2012, section 4.6.1 (256)"},
-      falloffBinding(&S::falloff),
-      falloffRadiusBinding(&S::radius),
-      objectsBinding(&S::objects)};
+  static const SettingsTable<S> kTable = {{&S::rays,
+                                           "rays",
+                                           {1, 4096},
+                                           "rays",
+                                           "Rays per vertex, a square number",
+                                           "Gaitatzes 2012, section 4.6.1 (256)"},
+                                          falloffBinding(&S::falloff),
+                                          falloffRadiusBinding(&S::radius),
+                                          objectsBinding(&S::objects)};
   return kTable;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ambient occlusion of each vertex on the CPU (Gaitatzes 2012, section 4.6): the same rays looked up in fields, or traced by
-// Embree. Its product is a picture in which triangles interpolate their vertices.
+// Ambient occlusion of each vertex on the CPU (Gaitatzes 2012, section 4.6): the same rays looked up in
+// fields, or traced by Embree. Its product is a picture in which triangles interpolate their vertices.
 #pragma once
 
 #include <optional>
