@@ -13,6 +13,7 @@ const uint kFieldPositionUnit = 0u;
 const uint kFieldNormalUnit = 1u;
 const uint kFieldIdsUnit = 2u;
 const uint kFieldReceiversUnit = 3u;
+const uint kFieldUnfilteredUnit = 4u;
 const uint kFieldOutImage = 1u;
 
 // Reflections: rays of a pixel are layers.

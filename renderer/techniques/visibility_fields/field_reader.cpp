@@ -35,17 +35,21 @@ std::vector<vf::RigidObject> covered(const std::vector<vf::RigidObject>& objects
   return out;
 }
 
-/// Numbered as in the scene, without those of no object, or without those of any.
-ray_tracing::RayScene objectRays(frame::Frame& frame, const vf::RigidObjects& objects,
-                                 bool ofObjects = true) {
-  const scene::Mesh& mesh = frame.scene().mesh;
+struct ObjectTriangles {
   std::vector<glm::vec3> vertices;
-  for (const glm::dvec3 p : mesh.positions) vertices.emplace_back(p - frame.gpuScene().anchor());
-  std::vector<glm::uvec3> triangles = mesh.triangles;
+  std::vector<glm::uvec3> triangles;
+};
+
+/// Numbered as in the scene, without those of no object, or without those of any.
+ObjectTriangles objectTriangles(const frame::Frame& frame, const vf::RigidObjects& objects,
+                                bool ofObjects = true) {
+  const scene::Mesh& mesh = frame.scene().mesh;
+  ObjectTriangles out{{}, mesh.triangles};
+  for (const glm::dvec3 p : mesh.positions) out.vertices.emplace_back(p - frame.gpuScene().anchor());
   // Without area: left out of the tree, but counted.
-  for (size_t i = 0; i < triangles.size(); ++i)
-    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) triangles[i] = glm::uvec3(0);
-  return {frame.context(), vertices, triangles};
+  for (size_t i = 0; i < out.triangles.size(); ++i)
+    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) out.triangles[i] = glm::uvec3(0);
+  return out;
 }
 
 const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel channel) {
@@ -66,6 +70,15 @@ const SettingsTable<ReceiverRays>& ReceiverRays::table() {
       {&S::rays, "rays", {1, 1024}, "rays", "Rays per pixel, a square number", "Gaitatzes 2012, section 4.7"},
       {&S::turned, "turned", "Choose other rays for each pixel, at random", "bench"},
       {&S::seed, "seed", {0, 1000000}, "", "Seed of that choice"},
+      {&S::interleave,
+       "interleave",
+       {1, 8},
+       "px",
+       "Side of the tiles of pixels that share a grid of rays that is finer by as much: each has other rays "
+       "of it, one in "
+       "every cell of its own",
+       "Keller and Heidrich 2001 (bench)"},
+      {&S::filter, "filter", "What is made of interleaved pixels", "bench"},
       {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
        "Gaitatzes 2012, section 4.4.2"},
       objectsBinding(&S::objects)};
@@ -78,6 +91,10 @@ void ReceiverRays::check() const {
   if (int64_t{side()} * side() != rays)
     throw Error("'rays' is " + std::to_string(rays) + ", not a square number", "rays",
                 "give " + std::to_string(side() * side()));
+  if (turned && interleave > 1)
+    throw Error("rays are either 'turned' at random or interleaved", "interleave", "leave out one of them");
+  if (interleave == 1 && !std::holds_alternative<NoFilter>(filter))
+    throw Error("'filter' is for interleaved pixels", "filter", "give interleave: 4");
 }
 
 void ReceiverRays::makeInputs(frame::Frame& frame) {
@@ -94,8 +111,36 @@ void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) co
   program.set("raySide", side());
   program.set("turned", turned ? 1 : 0);
   program.set("seed", static_cast<uint32_t>(seed));
+  program.set("interleave", interleave);
   program.set("selfOcclusion", selfOcclusion ? 1 : 0);
   program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
+}
+
+const SettingsTable<NoFilter>& NoFilter::table() {
+  static const SettingsTable<NoFilter> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<BilateralFilter>& BilateralFilter::table() {
+  static const SettingsTable<BilateralFilter> kTable = {
+      {&BilateralFilter::angleDeg,
+       "angle_deg",
+       {0.1, 90.0},
+       "deg",
+       "Angle between normals, or between a surface and the way to another pixel's point, at which that "
+       "counts no more"}};
+  return kTable;
+}
+
+const SettingsTable<TreeTracer>& TreeTracer::table() {
+  static const SettingsTable<TreeTracer> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<GridTracer>& GridTracer::table() {
+  static const SettingsTable<GridTracer> kTable = {
+      {&GridTracer::density, "density", {0.01, 64.0}, "", "Cells per triangle", "Cleary and Wyvill 1988"}};
+  return kTable;
 }
 
 const SettingsTable<FieldUse>& FieldUse::table() {
@@ -190,13 +235,25 @@ std::vector<Quantity> FieldReader::quantities() {
 }
 
 ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
-  return objectRays(frame, objectsOf(frame, rays.objects), false);
+  const ObjectTriangles others = objectTriangles(frame, objectsOf(frame, rays.objects), false);
+  return {frame.context(), others.vertices, others.triangles};
 }
 
-void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays) {
+void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer) {
   const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  rays_.emplace(objectRays(frame, objects));
+  const ObjectTriangles all = objectTriangles(frame, objects);
+  if (const auto* grid = std::get_if<GridTracer>(&tracer))
+    rays_ = std::make_unique<ray_tracing::TriangleGrid>(frame.context(), all.vertices, all.triangles,
+                                                        grid->density);
+  else
+    rays_ = std::make_unique<ray_tracing::RayScene>(frame.context(), all.vertices, all.triangles);
   objectOf_.emplace(objects.objectOf);
+}
+
+gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {
+  gl::ShaderDefines defines;
+  if (std::holds_alternative<GridTracer>(tracer)) defines["RAY_GRID"] = "1";
+  return defines;
 }
 
 void ObjectTracer::bind(const gl::Program& program) const {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/ray_tracing/triangle_grid.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/visibility_fields/visibility_fields.h"
 
@@ -19,16 +22,34 @@ Binding<S> objectsBinding(visibility_fields::ObjectSetting S::*member) {
   return {member, "objects", "What of the scene is one rigid object", "bench (auto)"};
 }
 
+/// What is made of the pixels of a tile that have different rays.
+struct NoFilter {
+  static constexpr const char *kKind = "none", *kSummary = "each pixel has the mean of its own rays";
+  static const SettingsTable<NoFilter>& table();
+};
+struct BilateralFilter {
+  static constexpr const char
+      *kKind = "bilateral",
+      *kSummary =
+          "means over a window as wide as a tile of interleaved pixels, of pixels on the "
+          "same surface";
+  double angleDeg = 20.0;
+  static const SettingsTable<BilateralFilter>& table();
+};
+using FilterSetting = std::variant<NoFilter, BilateralFilter>;
+
 /// Rays a pixel, its receiver and the objects that may block them: the same for a field and for the tracer
 /// that it is compared with.
 struct ReceiverRays {
   int64_t rays = 64;
   bool turned = false;
   int64_t seed = 1;
+  int interleave = 1;
+  FilterSetting filter;
   bool selfOcclusion = true;
   visibility_fields::ObjectSetting objects;
   static const SettingsTable<ReceiverRays>& table();
-  /// Throws Error unless `rays` is a square number.
+  /// Throws Error unless `rays` is a square number and pixels are interleaved where they are filtered.
   void check() const;
 
   int side() const;
@@ -85,10 +106,28 @@ class FieldReader {
   std::optional<gl::Buffer> objectOf_;
 };
 
+/// How rays find triangles.
+struct TreeTracer {
+  static constexpr const char *kKind = "tree", *kSummary = "through a wide hierarchy of bounding boxes";
+  static const SettingsTable<TreeTracer>& table();
+};
+struct GridTracer {
+  static constexpr const char *kKind = "grid", *kSummary = "through the cells of a uniform grid";
+  double density = 4.0;
+  static const SettingsTable<GridTracer>& table();
+};
+using TracerSetting = std::variant<TreeTracer, GridTracer>;
+template <class S>
+Binding<S> tracerBinding(TracerSetting S::*member) {
+  return {member, "tracer", "How rays find triangles",
+          "Gaitatzes 2012, sections 4.7.1 (grid) and 4.7.2 (tree)"};
+}
+
 /// The objects' triangles for shaders that include object_trace.glsl.
 class ObjectTracer {
  public:
-  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  void prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer);
+  static gl::ShaderDefines defines(const TracerSetting& tracer);
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return rays_->bytes() + objectOf_->bytes(); }
   /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
@@ -96,7 +135,7 @@ class ObjectTracer {
   static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);
 
  private:
-  std::optional<ray_tracing::RayScene> rays_;
+  std::unique_ptr<ray_tracing::RayTree> rays_;
   std::optional<gl::Buffer> objectOf_;
 };
 

@@ -26,6 +26,7 @@ class VertexFieldOcclusion : public VertexTechnique {
  protected:
   int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
     fields_.clear();
+    slack_ = 0.5 * visibility_fields::fieldSpacing(form_);
     for (const visibility_fields::RigidObject& object : objects) fields_.emplace_back(object, form_);
     int64_t bytes = 0;
     for (const visibility_fields::CpuField& field : fields_) bytes += 4 * field.rayCount();
@@ -34,10 +35,9 @@ class VertexFieldOcclusion : public VertexTechnique {
   void distances(glm::dvec3 origin, std::span<const glm::dvec3> directions, double,
                  std::span<double> out) const override {
     std::fill(out.begin(), out.end(), -1.0);
-    const double slack = 0.5 * visibility_fields::fieldSpacing(form_);
     for (const visibility_fields::CpuField& field : fields_)
       for (size_t i = 0; i < directions.size(); ++i) {
-        const double distance = field.distance(origin, directions[i], slack);
+        const double distance = field.distance(origin, directions[i], slack_);
         if (distance >= 0.0 && (out[i] < 0.0 || distance < out[i])) out[i] = distance;
       }
   }
@@ -51,6 +51,7 @@ class VertexFieldOcclusion : public VertexTechnique {
  private:
   visibility_fields::FieldForm form_;
   std::vector<visibility_fields::CpuField> fields_;
+  double slack_ = 0.0;  ///< diameters
 };
 
 std::vector<Quantity> vertexFieldQuantities() {
