@@ -170,9 +170,10 @@ TEST_F(FieldVertexTest, AGridOfTrianglesGivesTheTreesPicture) {
 }
 
 // Sixteen pixels of 4 x 4 tiles with 16 rays each have the 256 rays of 16 x 16 cells between them. On the
-// floor, far from the picture's border, where what is hidden changes little over 4 pixels, 0.09 units or 6e-3
-// of 1 at most between its ends, their mean is that of 256 rays of one pixel: half of that, and the rays' own
-// 0.016 at 256 is the same in both.
+// floor, away from the picture's border, what is hidden changes by less than 3e-3 over half a window, and the
+// rays' own errors, with outlines that cut some 30 of 256 cells 0.5 * sqrt(30) / 256 = 0.011 as a deviation
+// at most, rather half of it as cells are cut in all ratios, are not the same in both, as receivers differ: 3
+// deviations of the difference are 3 * sqrt(2) * 0.0055 = 0.023.
 TEST_F(FieldVertexTest, InterleavedAndFilteredPixelsHaveTheRaysOfTheirTile) {
   const scene::Scene scene = ballsOverAGrid();
   Given few = {{"rays", int64_t{16}}, {"radius", 10.0}}, many = {{"rays", int64_t{256}}, {"radius", 10.0}};
@@ -186,7 +187,7 @@ TEST_F(FieldVertexTest, InterleavedAndFilteredPixelsHaveTheRaysOfTheirTile) {
     for (int x = 2; x < kVertexSizePx.x - 2; ++x) {
       before += std::abs(plain.at(x, y) - whole.at(x, y));
       after += std::abs(filtered.at(x, y) - whole.at(x, y));
-      ASSERT_NEAR(filtered.at(x, y), whole.at(x, y), 0.016) << x << ' ' << y;
+      ASSERT_NEAR(filtered.at(x, y), whole.at(x, y), 0.026) << x << ' ' << y;
     }
   EXPECT_LT(after, 0.25 * before);
 }
