@@ -54,7 +54,7 @@ struct NormalField {
 struct FieldReflectionSettings {
   LobeRays rays;
   NormalField field;
-  bool selfReflection = false;
+  bool selfReflection = true;
   visibility_fields::ObjectSetting objects;
   PrimaryRays primary = PrimaryRays::Exact;
   frame::ShadedSetting shading;
