@@ -28,7 +28,7 @@ void keep(uvec2 item) {
   if (keptCount < LAYERS) {
     int at = keptCount++;
     while (at > 0) {
-        const int above = (at - 1) / 2;
+      const int above = (at - 1) / 2;
       if (!isNearer(kept[above], item)) break;
       kept[at] = kept[above];
       at = above;
