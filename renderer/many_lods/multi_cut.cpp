@@ -38,7 +38,7 @@ gl::Buffer storage(int64_t bytes) {
   if (bytes > most)
     throw Error("the lists of cuts take " + std::to_string(bytes) +
                     " bytes in one buffer; this device allows " + std::to_string(most),
-                {}, "lower the capacity");
+                {}, "lower 'room', the number of views, or the size of the picture");
   return {bytes, nullptr};
 }
 
