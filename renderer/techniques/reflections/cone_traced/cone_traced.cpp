@@ -330,7 +330,7 @@ class ConeTraced : public Technique {
 
 const RegisteredTechnique<ConeTraced> kConeTracedRegistered{
     {.name = "reflections/cone_traced",
-     .version = 1,
+     .version = 2,
      .summary = "Glossy and antialiased mirrors by one cone for each pixel",
      .source = "Roger 2008, chapter 5 (R-37 to R-52)",
      .product = ProductKind::Colour,

@@ -232,7 +232,7 @@ class RayHierarchyReflections : public Technique {
 
 const RegisteredTechnique<RayHierarchyReflections> kRayHierarchyRegistered{
     {.name = "reflections/ray_hierarchy",
-     .version = 2,
+     .version = 3,
      .summary = "Mirrors by a hierarchy over the rays, for scenes without a structure over their triangles",
      .source = "Roger 2008, chapter 3 (R-13 to R-26)",
      .product = ProductKind::Colour,
