@@ -30,7 +30,7 @@ std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 a
                    static_cast<uint32_t>(pattern.kind), static_cast<float>(pattern.contrast), pattern.octaves,
                    static_cast<uint32_t>(vertexCount(scene)) + 16 * material.patch, material.mirror,
                    material.glossRad, material.transmittance, material.refractiveIndex,
-                   material.fresnel ? 1U : 0U, 0, 0, 0});
+                   material.emission, material.fresnel ? 1U : 0U});
   }
   return out;
 }
