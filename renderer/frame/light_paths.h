@@ -10,7 +10,7 @@ namespace limen::frame {
 /// each other, or both.
 enum class LightPart { Direct, Indirect, All };
 constexpr EnumNames<LightPart, 3> enumNames(LightPart) {
-  return {{{LightPart::Direct, "direct"}, {LightPart::Indirect, "indirect"}, {LightPart::All, "all"}}};
+  return {{{{LightPart::Direct, "direct"}, {LightPart::Indirect, "indirect"}, {LightPart::All, "all"}}}};
 }
 
 /// How all techniques of global illumination light a scene, so that their pictures differ by indirect light

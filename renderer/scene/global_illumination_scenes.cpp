@@ -57,7 +57,7 @@ const RegisteredScene<ClosedBoxSettings> kClosedBoxRegistered{
 
 enum class RoomLight { Lamp, Emitters };
 constexpr EnumNames<RoomLight, 2> enumNames(RoomLight) {
-  return {{{RoomLight::Lamp, "lamp"}, {RoomLight::Emitters, "emitters"}}};
+  return {{{{RoomLight::Lamp, "lamp"}, {RoomLight::Emitters, "emitters"}}}};
 }
 
 constexpr double kHalfWidth = 1.5, kHeight = 2.5, kHalfDepth = 1.5;
