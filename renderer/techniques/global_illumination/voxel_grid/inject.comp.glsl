@@ -33,7 +33,10 @@ void main() {
   const vec3 weights = vec3(1.0 - uv.x - uv.y, uv);
   const uvec3 vertices = sceneTriangle(texel.x);
   const vec3 a = scenePosition(vertices.x), e1 = scenePosition(vertices.y) - a, e2 = scenePosition(vertices.z) - a;
-  const vec3 front = cross(e1, e2);
+  // Scaled before the product: squares of a tiny scene's areas would leave float's range.
+  const vec3 reach = max(abs(e1), abs(e2));
+  const float unit = 1.0 / max(reach.x, max(reach.y, reach.z));
+  const vec3 front = cross(e1 * unit, e2 * unit);
   if (!(dot(front, front) > 0.0)) return;
   const float area = uintBitsToFloat(texel.w);
   // Either side of the surface.

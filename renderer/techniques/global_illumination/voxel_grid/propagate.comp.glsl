@@ -15,9 +15,9 @@ uniform vec3 fixedAlbedo;
 #include "renderer/voxels/volume.glsl"
 
 vec3 faceDirection(int face) {
-  vec3 direction = vec3(0.0);
-  direction[face >> 1] = (face & 1) == 0 ? 1.0 : -1.0;
-  return direction;
+  const int axis = face >> 1;
+  const float side = (face & 1) == 0 ? 1.0 : -1.0;
+  return side * vec3(axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
 }
 
 // What leaves `voxel` along a face's direction.
@@ -26,7 +26,7 @@ float faceFlux(ivec3 voxel, int layer, int face) {
   if (light == vec4(0.0)) return 0.0;
   const vec3 slope = coneLinear * light.wyz;  // x, y, z
   const float flux = max(coneConstant * light.x + dot(slope, faceDirection(face)), 0.0);
-#if NORMALISATION == NORMALISATION_PRINTED
+#if SHARES == SHARES_PRINTED
   return flux;
 #else
   // All of the voxel's flux leaves it, shared among its open faces as the cones have it.

@@ -30,10 +30,11 @@ vec3 gatheredLight(SurfacePoint point) {
     const vec3 axes = mix(1.0 - part, part, vec3(upper));
     const float weight = axes.x * axes.y * axes.z;
     total += weight;
-    for (int channel = 0; channel < 3; ++channel)
-      sum[channel] += weight * dot(texelFetch(gathered, ivec3(voxel.xy, voxel.z + channel * gridSizeZ), 0), towards);
+    sum += weight * vec3(dot(texelFetch(gathered, voxel, 0), towards),
+                         dot(texelFetch(gathered, voxel + ivec3(0, 0, gridSizeZ), 0), towards),
+                         dot(texelFetch(gathered, voxel + ivec3(0, 0, 2 * gridSizeZ), 0), towards));
   }
-  return total > 1e-4 ? max(sum / total, 0.0) * IRRADIANCE_SCALE / 3.14159265 : vec3(0.0);
+  return total > 1e-4 ? max(sum / total, 0.0) * 1.5 / 3.14159265 : vec3(0.0);
 }
 
 void main() {

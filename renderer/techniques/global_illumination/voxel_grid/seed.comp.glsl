@@ -12,9 +12,9 @@ void main() {
   const ivec3 at = ivec3(gl_GlobalInvocationID);  // z: channel and layer
   if (any(greaterThanEqual(at, ivec3(gridSize().xy, 3 * gridSizeZ)))) return;
   const int channel = at.z / gridSizeZ, z = at.z - channel * gridSizeZ;
-  vec4 light;
-  for (int c = 0; c < 4; ++c)
-    light[c] = float(int(imageLoad(sums, ivec3(at.xy, (4 * channel + c) * gridSizeZ + z)).x)) / kInjectFixed;
-  imageStore(field, at, light);
+  const ivec3 first = ivec3(at.xy, 4 * channel * gridSizeZ + z), next = ivec3(0, 0, gridSizeZ);
+  const uvec4 sum = uvec4(imageLoad(sums, first).x, imageLoad(sums, first + next).x, imageLoad(sums, first + 2 * next).x,
+                          imageLoad(sums, first + 3 * next).x);
+  imageStore(field, at, vec4(ivec4(sum)) / kInjectFixed);
   imageStore(gathered, at, vec4(0.0));
 }
