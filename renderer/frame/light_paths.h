@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
-#include "experiments/base/quantity.h"
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/shaded.h"
 
@@ -20,8 +17,8 @@ constexpr EnumNames<LightPart, 3> enumNames(LightPart) {
 /// alone. Surfaces are diffuse, with the normals of their triangles. The lamp is the scene's first light: it
 /// shines from its centre with the same strength at any distance, as everywhere else in the bench, so that a
 /// surface of albedo a that faces it has the radiance a * strength, its irradiance being pi * strength.
-/// Materials emit from their front sides. What leaves the scene is lost; nothing comes from outside. Shares
-/// that materials mirror or let through have no part: every surface is opaque and diffuse.
+/// Materials emit from their front sides. What leaves the scene is lost; nothing comes from outside. Surfaces
+/// with a transmittance let that share through straight on (their refractive index has no part in it).
 struct SurfaceLightSettings {
   LightPart light = LightPart::All;
   double strength = 0.8;
@@ -72,14 +69,7 @@ struct LightPathSettings {
   }
 };
 
-/// What both tracers of paths count. The standard error is of a pixel's mean over its channels, measured from
-/// its paths, and is 0 where the picture holds direct light alone; it says nothing of light that no path
-/// found.
-inline std::vector<Quantity> lightPathQuantities() {
-  return {{"standard_error", "Standard error of a pixel, root mean square over the picture", "",
-           Direction::LowerIsBetter},
-          {"mean_radiance", "Mean radiance of the picture", "", Direction::Neither},
-          {"rays_per_px", "Rays a pixel, those to the lamp included", "1/px", Direction::LowerIsBetter}};
-}
+/// Transparent surfaces that a path or a ray to the lamp passes at most; behind more there is no light.
+inline constexpr int kMostPassages = 8;
 
 }  // namespace limen::frame

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light that diffuse surfaces reflect to each other, by paths of at most so many reflections: at each point
-// of a path one direction with the density of the cosine, and a ray to the lamp. Emitters are found by the
-// paths themselves, so that small ones are noisy. What propagation in grids converges to, and what it must
-// beat. Source: Kajiya 1986; Gaitatzes 2012, section 5.6 (path tracing of two bounces).
+// Diffuse path tracer with a limit on bounces (BL-03) through the tree of the scene's triangles on the GPU:
+// from the point that each pixel sees, directions by the cosine, a ray to the lamp at each surface. Emitters
+// count where a path meets them. No path is ended by chance, so that the mean is that of the first `bounces`
+// reflections exactly. Source: Kajiya 1986; Gaitatzes 2012, section 5.6, compares with such pictures.
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,92 +12,90 @@
 #include "renderer/frame/light_paths.h"
 #include "renderer/frame/mirror_trace.h"
 #include "renderer/ray_tracing/ray_scene.h"
-#include "renderer/techniques/global_illumination/global_illumination_bindings.h"
+#include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/surface_light.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPathPass = "global_illumination/path_traced";
-/// Of one dispatch: few enough for the loops of software renderers.
-constexpr int kPathsAtOnce = 4;
+constexpr const char *kPathsPass = "global_illumination/paths", *kMeanPass = "global_illumination/path_mean";
 
 class PathTraced : public Technique {
  public:
   using Settings = frame::LightPathSettings;
-  explicit PathTraced(const Settings& settings) : settings_(settings), lamp_(settings.surfaces.lamp()) {}
+  explicit PathTraced(const Settings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    program_ = &frame.context().programs().compute(
-        "renderer/techniques/global_illumination/path_traced/path_traced.comp.glsl",
-        frame::mirrorTraceDefines(lamp_, frame));
-    radiance_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    moments_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    frame.passes().setBytesHeld(
-        kPathPass, radiance_->bytes() + moments_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
+    gl::ProgramCache& programs = frame.context().programs();
+    trace_ = &programs.compute("renderer/techniques/global_illumination/path_traced/path_traced.comp.glsl",
+                               surfaceLightDefines(settings_.surfaces, frame));
+    mean_ = &programs.compute("renderer/techniques/global_illumination/path_traced/path_mean.comp.glsl");
+    sums_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    frame.passes().setBytesHeld(kPathsPass, sums_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
+    frame.passes().setBytesHeld(kMeanPass, picture_->bytes());
   }
 
   void render(frame::Frame& frame) override {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
-    const auto scope = frame.passes().open(kPathPass);
-    frame::configureMirrorTrace(*program_, frame, lamp_);
-    program_->set("bounces", settings_.bounces);
-    program_->set("seed", static_cast<uint32_t>(settings_.seed));
-    program_->set("pathWeight", static_cast<float>(1.0 / double(settings_.paths)));
-    program_->set("holdsDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
-    ids.bindTexture(kLightPathIdsUnit);
-    radiance_->bindImage(kLightPathRadianceImage, gl::Access::ReadWrite);
-    moments_->bindImage(kLightPathMomentsImage, gl::Access::ReadWrite);
-    const auto paths = static_cast<int>(pathsTraced());
-    int first = 0;
-    do {
-      const int end = std::min(first + kPathsAtOnce, paths);
-      program_->set("firstPath", first);
-      program_->set("endPath", end);
-      program_->dispatch(frame.sizePx());
-      glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-      first = end;
-    } while (first < paths);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    {
+      const auto scope = frame.passes().open(kPathsPass);
+      sums_->clear(glm::vec4(0.0F));
+      configureSurfaceLight(*trace_, frame, settings_.surfaces);
+      trace_->set("bounces", settings_.bounces);
+      trace_->set("seed", static_cast<uint32_t>(settings_.seed));
+      trace_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
+      trace_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
+      ids.bindTexture(kPathIdsUnit);
+      sums_->bindImage(kPathSumsImage, gl::Access::ReadWrite);
+      for (int path = 0; path < settings_.paths; ++path) {
+        trace_->set("path", path);
+        trace_->dispatch(frame.sizePx());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+      }
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+    const auto scope = frame.passes().open(kMeanPass);
+    mean_->set("sizePx", frame.sizePx());
+    mean_->set("weight", static_cast<float>(1.0 / double(settings_.paths)));
+    sums_->bindTexture(kPathSumsUnit);
+    picture_->bindImage(kPathPictureImage, gl::Access::Write);
+    mean_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  const gl::Texture& product() const override { return *radiance_; }
+  const gl::Texture& product() const override { return *picture_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    const Image moments = moments_->read(), radiance = radiance_->read();
-    const auto paths = double(pathsTraced()), pixels = double(moments.pixels());
-    double squares = 0.0, rays = 0.0, sum = 0.0;
-    for (size_t i = 0; i < moments.pixels(); ++i) {
-      const double mean = moments.data[4 * i] / std::max(paths, 1.0);
-      if (paths > 1.0)
-        squares += std::max(moments.data[4 * i + 1] / paths - mean * mean, 0.0) / (paths - 1.0);
-      rays += moments.data[4 * i + 2];
-      for (size_t c = 0; c < 3; ++c) sum += radiance.data[4 * i + c] / 3.0;
+    const Image sums = sums_->read();
+    const double n = double(settings_.paths);
+    double variance = 0.0;
+    for (size_t pixel = 0; pixel < sums.pixels(); ++pixel) {
+      const float* at = &sums.data[4 * pixel];
+      const double mean = (double(at[0]) + at[1] + at[2]) / (3.0 * n);
+      variance += std::max(at[3] / n - mean * mean, 0.0) / (n - 1.0);
     }
-    return {{"standard_error", std::sqrt(squares / pixels)},
-            {"mean_radiance", sum / pixels},
-            {"rays_per_px", rays / pixels}};
+    return {{"paths_per_px", n}, {"standard_error", std::sqrt(variance / double(sums.pixels()))}};
   }
 
  private:
-  int64_t pathsTraced() const {
-    return settings_.surfaces.light == frame::LightPart::Direct || settings_.bounces == 0 ? 0
-                                                                                          : settings_.paths;
-  }
-
   Settings settings_;
-  frame::ShadedSetting lamp_;
-  const gl::Program* program_ = nullptr;
-  std::optional<gl::Texture> radiance_, moments_;
+  const gl::Program *trace_ = nullptr, *mean_ = nullptr;
+  std::optional<gl::Texture> sums_, picture_;
 };
 
 const RegisteredTechnique<PathTraced> kPathTracedRegistered{
     {.name = "global_illumination/path_traced",
      .version = 1,
-     .summary = "Diffuse light by paths of a few reflections, traced on the GPU",
+     .summary = "Paths over diffuse surfaces with a limit on bounces, on the GPU",
      .source = "Kajiya 1986; Gaitatzes 2012, section 5.6 (BL-03)",
      .product = ProductKind::Colour,
-     .counters = frame::lightPathQuantities(),
+     .reference = true,
+     .counters = {{"paths_per_px", "Paths from each pixel's point", "", Direction::LowerIsBetter},
+                  {"standard_error",
+                   "Standard error of pixels' channel means, root mean square over the picture", "",
+                   Direction::LowerIsBetter}},
      .effort = "paths"}};
 
 }  // namespace

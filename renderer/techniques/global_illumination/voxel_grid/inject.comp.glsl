@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each sample of the surfaces sends of the lamp's light and its own, added to its voxel as a cosine lobe.
+#include "renderer/techniques/global_illumination/illumination_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kInjectSamplesUnit) uniform usampler2D samples;  // triangle, two weights, area over a face's
+// Layer ((channel * 4) + coefficient) * depth + z, in units of 1 / kInjectFixed, signed.
+layout(binding = kInjectSumsImage, r32ui) uniform uimage2DArray sums;
+
+uniform ivec2 sizePx;
+uniform uint sampleCount;
+uniform float shift;  // in voxels
+#include "renderer/techniques/global_illumination/surface_light.glsl"
+#include "renderer/techniques/global_illumination/voxel_grid/light_lobes.glsl"
+#include "renderer/voxels/volume.glsl"
+
+void add(SurfacePoint point, vec3 radiance, float area) {
+  if (radiance == vec3(0.0)) return;
+  const ivec3 voxel = clamp(ivec3(floor(toVoxels(point.position) + shift * point.flatNormal)), ivec3(0), gridSize() - 1);
+  // The flux of a diffuse surface is pi times its radiance and area.
+  const vec4 lobe = 3.14159265 * area * unitLobe(point.flatNormal, kCosineSlope);
+  for (int channel = 0; channel < 3; ++channel)
+    for (int c = 0; c < 4; ++c)
+      imageAtomicAdd(sums, ivec3(voxel.xy, (4 * channel + c) * gridSizeZ + voxel.z),
+                     uint(int(round(kInjectFixed * radiance[channel] * lobe[c]))));
+}
+
+void main() {
+  const uint index = gl_GlobalInvocationID.y * uint(textureSize(samples, 0).x) + gl_GlobalInvocationID.x;
+  if (gl_GlobalInvocationID.x >= uint(textureSize(samples, 0).x) || index >= sampleCount) return;
+  const uvec4 texel = texelFetch(samples, ivec2(gl_GlobalInvocationID.xy), 0);
+  const vec2 uv = uintBitsToFloat(texel.yz);
+  const vec3 weights = vec3(1.0 - uv.x - uv.y, uv);
+  const uvec3 vertices = sceneTriangle(texel.x);
+  const vec3 a = scenePosition(vertices.x), e1 = scenePosition(vertices.y) - a, e2 = scenePosition(vertices.z) - a;
+  // Scaled before the product: squares of a tiny scene's areas would leave float's range.
+  const vec3 reach = max(abs(e1), abs(e2));
+  const float unit = 1.0 / max(reach.x, max(reach.y, reach.z));
+  const vec3 front = cross(e1 * unit, e2 * unit);
+  if (!(dot(front, front) > 0.0)) return;
+  const float area = uintBitsToFloat(texel.w);
+  // Either side of the surface.
+  SurfacePoint point = surfaceHit(texel.x, weights, -normalize(front));
+  const vec3 albedo = reflectance(point);
+  add(point, emitted(point) + albedo * lampRadiance(point), area);
+  point = surfaceHit(texel.x, weights, normalize(front));
+  add(point, albedo * lampRadiance(point), area);
+}

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/voxels/volume.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 0) out vec3 place;  // in voxels
+
+void main() { place = toVoxels(position); }

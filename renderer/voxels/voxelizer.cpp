@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/voxels/voxelizer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+#include "renderer/voxels/voxel_bindings.h"
+
+namespace limen::voxels {
+namespace {
+
+/// Groups that share large triangles where there are few triangles: about four times what an NVIDIA H200's
+/// 132 multiprocessors take, and at most this many of one triangle.
+constexpr uint32_t kSharingGroups = 512, kMostLayers = 64;
+
+gl::ShaderDefines voxelizerDefines(Coverage coverage, const Volume& into) {
+  gl::ShaderDefines defines = into.defines();
+  defineEnum(defines, "COVERAGE", coverage);
+  if (into.attributes().any()) defines["SUMS"] = "1";
+  return defines;
+}
+
+}  // namespace
+
+Voxelizer::Voxelizer(gl::Context& context, Coverage coverage, const Volume& into)
+    : program_(context.programs().compute("renderer/voxels/voxelize.comp.glsl",
+                                          voxelizerDefines(coverage, into))) {}
+
+void Voxelizer::run(const frame::Frame& frame, const Volume& into) const {
+  into.clear();
+  add(frame, into);
+  into.finish();
+}
+
+void Voxelizer::add(const frame::Frame& frame, const Volume& into) const {
+  const uint32_t triangles = frame.gpuScene().triangleCount();
+  if (triangles == 0) return;
+  if (into.sums()) frame.bindSurfaces();
+  frame.gpuScene().bindStorage(&frame.positions());
+  into.bits().bindImage(kVoxelBitsImage, gl::Access::ReadWrite);
+  if (into.sums()) into.sums()->bindStorage(kVoxelSumsBuffer);
+  into.configure(program_);
+  program_.set("triangleCount", triangles);
+  program_.use();
+  const uint32_t groups = (triangles + kVoxelizeGroup - 1) / kVoxelizeGroup;
+  const uint32_t rows = (groups + 65534) / 65535;
+  glDispatchCompute((groups + rows - 1) / rows, rows, std::clamp(kSharingGroups / groups, 1U, kMostLayers));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+}  // namespace limen::voxels

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The single-pass voxelizer against exact sets in double precision.
+#include "renderer/voxels/voxelizer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "renderer/frame/scene_on_gpu.h"
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+#include "renderer/voxels/exact_voxels.h"
+#include "renderer/voxels/voxel_bindings.h"
+#include "tests/renderer/voxels/clipped_triangle.h"
+
+namespace limen::voxels {
+namespace {
+
+class VoxelizerTest : public testing::Test {
+ protected:
+  static gl::Context& context() {
+    static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
+    return *kContext;
+  }
+  void SetUp() override { context().makeCurrent(); }
+  void TearDown() override {
+    for (const gl::DebugMessage& message : context().takeDebugMessages())
+      if (!message.performance || context().device().software) ADD_FAILURE() << message.text;
+  }
+
+  /// Voxels of a scene; `with` is called with the volume.
+  template <class With>
+  static std::vector<uint8_t> voxelize(const scene::Scene& scene, const VoxelGrid& grid, Coverage coverage,
+                                       const VolumeAttributes& attributes, With with) {
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, {16, 16});
+    const Volume volume(context(), grid, gpuScene.anchor(), attributes);
+    const Voxelizer voxelizer(context(), coverage, volume);
+    frame.begin();
+    voxelizer.run(frame, volume);
+    frame.end();
+    with(volume);
+    return volume.readOccupied();
+  }
+  static std::vector<uint8_t> voxelize(const scene::Scene& scene, const VoxelGrid& grid, Coverage coverage) {
+    return voxelize(scene, grid, coverage, {}, [](const Volume&) {});
+  }
+};
+
+/// Triangles of all sizes and shapes: smaller than a voxel, slivers, large slanted ones, segments, points.
+scene::Scene soup(int64_t seed) {
+  scene::Random random(seed);
+  scene::Mesh mesh;
+  for (int i = 0; i < 300; ++i) {
+    const double reach = i < 200 ? 0.02 : 1.0;
+    const glm::dvec3 middle{random.uniform(-1, 1), random.uniform(-0.6, 0.6), random.uniform(-0.8, 0.8)};
+    glm::dvec3 corners[3];
+    for (glm::dvec3& corner : corners) corner = middle + random.uniform(0.0, reach) * random.direction();
+    if (i % 10 == 1) corners[2] = 0.5 * (corners[0] + corners[1]);
+    if (i % 10 == 2) corners[2] = corners[1] + 1e-5 * random.direction();
+    if (i % 50 == 3) corners[1] = corners[2] = corners[0];
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), corners, corners + 3);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  scene::Scene scene;
+  scene::addPart(scene, "soup", mesh, glm::vec3(0.5F));
+  return scene;
+}
+
+/// Voxels that only the mesh meets if it may lie off by `slack` voxels.
+int64_t beyond(const std::vector<uint8_t>& found, const scene::Mesh& mesh, const VoxelGrid& grid,
+               double slack) {
+  std::vector<uint8_t> explained(found.size());
+  for (const glm::uvec3 triangle : mesh.triangles) {
+    const glm::dvec3 at[3] = {grid.toVoxels(mesh.positions[triangle.x]),
+                              grid.toVoxels(mesh.positions[triangle.y]),
+                              grid.toVoxels(mesh.positions[triangle.z])};
+    const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(glm::min(at[0], glm::min(at[1], at[2])) - 0.1)), 0);
+    const glm::ivec3 high =
+        glm::min(glm::ivec3(glm::floor(glm::max(at[0], glm::max(at[1], at[2])) + 0.1)), grid.resolution - 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const auto index = static_cast<size_t>(grid.indexOf({x, y, z}));
+          if (found[index] && !explained[index] && clippedMeets(at, {x, y, z}, slack)) explained[index] = 1;
+        }
+  }
+  return compare(found, explained).extra;
+}
+
+// Positions on the GPU are floats, and its tests allow for kVoxelSlack, both ways and where a plane is cut:
+// what it adds lies within four of them of the mesh, what it lacks within two of the ends of a middle line.
+const double kNear = 4.0 * kVoxelSlack, kEnds = 2.0 * kVoxelSlack;
+
+TEST_F(VoxelizerTest, CoversASoupAsExactSetsSay) {
+  for (const int64_t seed : {1, 2, 3}) {
+    const scene::Scene scene = soup(seed);
+    const VoxelGrid grid = tightGrid(scene.bounds(), 48);
+    const std::vector<uint8_t> exact = exactVoxels(scene.mesh, grid);
+    const std::vector<uint8_t> conservative = voxelize(scene, grid, Coverage::Conservative);
+    EXPECT_EQ(compare(conservative, exact).missing, 0);
+    EXPECT_EQ(beyond(conservative, scene.mesh, grid, kNear), 0);
+    const std::vector<uint8_t> thin = voxelize(scene, grid, Coverage::Thin);
+    EXPECT_EQ(compare(thin, separatingVoxels(scene.mesh, grid, kEnds)).missing, 0);
+    EXPECT_EQ(beyond(thin, scene.mesh, grid, kNear), 0);
+    EXPECT_EQ(compare(thin, conservative).extra, 0);
+    const std::vector<uint8_t> dominant = voxelize(scene, grid, Coverage::Dominant);
+    EXPECT_EQ(compare(dominant, thin).extra, 0);
+    EXPECT_GT(countOf(dominant), countOf(exact) / 4);
+    EXPECT_GT(countOf(exact), countOf(thin));
+  }
+}
+
+/// Whether a path of empty voxels, face to face, leads from one voxel to another.
+bool leadsTo(const std::vector<uint8_t>& occupied, const VoxelGrid& grid, glm::ivec3 from, glm::ivec3 to) {
+  std::vector<uint8_t> seen = occupied;
+  std::vector<glm::ivec3> open = {from};
+  while (!open.empty()) {
+    const glm::ivec3 at = open.back();
+    open.pop_back();
+    if (at == to) return true;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {-1, 1}) {
+        glm::ivec3 next = at;
+        next[axis] += step;
+        if (!grid.contains(next) || seen[static_cast<size_t>(grid.indexOf(next))]) continue;
+        seen[static_cast<size_t>(grid.indexOf(next))] = 1;
+        open.push_back(next);
+      }
+  }
+  return false;
+}
+
+// Nothing leaks through a floor at any slant, nor out of a closed ball.
+TEST_F(VoxelizerTest, LeavesNoHoles) {
+  VoxelGrid grid;
+  grid.origin = glm::dvec3(-1.0);
+  grid.resolution = glm::ivec3(40, 37, 33);
+  grid.voxelSize = 0.05;
+  for (const double degrees : {0.0, 13.0, 44.0, 45.0, 46.0, 71.0, 90.0}) {
+    const double angle = glm::radians(degrees);
+    scene::Scene scene;
+    const glm::dvec3 middle = 0.5 * (grid.origin + grid.high()) + 0.013;
+    scene::addPart(scene, "floor",
+                   scene::card(middle, 3.0 * glm::dvec3(std::cos(angle), std::sin(angle), 0.1),
+                               3.0 * glm::dvec3(0.02, -0.1, 1.0)),
+                   glm::vec3(0.5F));
+    // On either side of the floor, along its normal from the middle.
+    const glm::dvec3 up = 0.6 * glm::dvec3(-std::sin(angle), std::cos(angle), 0.0);
+    const glm::ivec3 above(glm::floor(grid.toVoxels(middle + up))),
+        below(glm::floor(grid.toVoxels(middle - up)));
+    for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin, Coverage::Conservative})
+      EXPECT_FALSE(leadsTo(voxelize(scene, grid, coverage), grid, above, below)) << degrees;
+  }
+  scene::Scene ball;
+  scene::addPart(ball, "ball", scene::sphere(glm::dvec3(-0.05, 0.0, -0.2), 0.6, 24), glm::vec3(0.5F));
+  for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+    EXPECT_FALSE(leadsTo(voxelize(ball, grid, coverage), grid, {0, 0, 0}, {19, 20, 16}));
+}
+
+// Two cards that cross, of two colours: each voxel's means from its entries, counted in double precision.
+TEST_F(VoxelizerTest, AttributesAreMeansOverEntries) {
+  scene::Scene scene;
+  scene::addPart(scene, "red", scene::card({0.0, 0.0, 0.0}, {1.0, 0.31, 0.07}, {0.05, 0.1, 0.9}),
+                 {0.8F, 0.1F, 0.2F});
+  scene::Material glass;
+  glass.albedo = {0.1F, 0.6F, 0.3F};
+  glass.transmittance = {0.5F, 0.5F, 0.5F};
+  scene::addPart(scene, scene::card({0.03, 0.02, 0.01}, {0.1, 0.8, 0.2}, {0.7, -0.1, 0.5}), glass);
+  const VoxelGrid grid = tightGrid(scene.bounds(), 24);
+  struct Entries {
+    double count = 0.0, opacity = 0.0;
+    glm::dvec3 albedo{0.0}, normal{0.0};
+    bool close = false;  // to a decision that floats may take otherwise
+  };
+  std::vector<Entries> expected(static_cast<size_t>(grid.count()));
+  for (size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    const glm::uvec3 triangle = scene.mesh.triangles[i];
+    const glm::dvec3 at[3] = {grid.toVoxels(scene.mesh.positions[triangle.x]),
+                              grid.toVoxels(scene.mesh.positions[triangle.y]),
+                              grid.toVoxels(scene.mesh.positions[triangle.z])};
+    const bool isGlass = i >= scene.parts[1].firstTriangle;
+    for (int z = 0; z < grid.resolution.z; ++z)
+      for (int y = 0; y < grid.resolution.y; ++y)
+        for (int x = 0; x < grid.resolution.x; ++x) {
+          Entries& entries = expected[static_cast<size_t>(grid.indexOf({x, y, z}))];
+          const bool surely = clippedMeets(at, {x, y, z}, -kNear);
+          if (surely != clippedMeets(at, {x, y, z}, kNear)) entries.close = true;
+          if (!surely) continue;
+          entries.count += 1.0;
+          entries.albedo += isGlass ? glm::dvec3(0.1, 0.6, 0.3) : glm::dvec3(0.8, 0.1, 0.2);
+          entries.opacity += isGlass ? 0.5 : 1.0;
+          entries.normal += glm::normalize(glm::cross(at[1] - at[0], at[2] - at[0]));
+        }
+  }
+  const VolumeAttributes attributes{.albedo = true, .normal = true, .format = gl::Format::RGBA32F};
+  voxelize(scene, grid, Coverage::Conservative, attributes, [&](const Volume& volume) {
+    int compared = 0, mixed = 0;
+    // Sums in steps of 1 / kVoxelFixed are off by half a step an entry.
+    const double bound = 0.51 / kVoxelFixed + 1e-6;
+    for (int z = 0; z < grid.resolution.z; ++z) {
+      const Image albedo = volume.albedo().readLayer(z), normal = volume.normal().readLayer(z);
+      for (int y = 0; y < grid.resolution.y; ++y)
+        for (int x = 0; x < grid.resolution.x; ++x) {
+          const Entries& entries = expected[static_cast<size_t>(grid.indexOf({x, y, z}))];
+          if (entries.close) continue;
+          const double count = std::max(entries.count, 1.0);
+          for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(albedo.at(x, y, c), entries.albedo[c] / count, bound);
+            ASSERT_NEAR(normal.at(x, y, c), entries.normal[c] / count, bound);
+          }
+          ASSERT_NEAR(normal.at(x, y, 3), entries.opacity / count, bound);
+          if (entries.count > 0.0) ++compared;
+          if (entries.opacity / count > 0.51 && entries.opacity / count < 0.99) ++mixed;
+        }
+    }
+    EXPECT_GT(compared, 500);
+    EXPECT_GT(mixed, 10);
+  });
+}
+
+// Whether few triangles share all groups or each is one invocation's: a box, alone and among many small balls
+// elsewhere.
+TEST_F(VoxelizerTest, SharingChangesNothing) {
+  scene::Scene alone, among;
+  const scene::Mesh box = scene::box({-0.91, -0.83, -0.77}, {0.07, 0.19, 0.11});
+  scene::addPart(alone, "box", box, glm::vec3(0.5F));
+  scene::addPart(among, "box", box, glm::vec3(0.5F));
+  scene::addPart(among, "ball", scene::sphere(glm::dvec3(0.7), 0.2, 64), glm::vec3(0.5F));
+  const VoxelGrid grid = tightGrid(among.bounds(), 64);
+  const auto few = voxelize(alone, grid, Coverage::Conservative),
+             many = voxelize(among, grid, Coverage::Conservative);
+  EXPECT_EQ(compare(many, few).missing, 0);
+  for (int x = 0; x < 32; ++x)
+    EXPECT_EQ(few[static_cast<size_t>(grid.indexOf({x, 20, 20}))],
+              many[static_cast<size_t>(grid.indexOf({x, 20, 20}))]);
+}
+
+TEST_F(VoxelizerTest, TriangleThatIsNotFiniteIsLeftOut) {
+  scene::Scene scene;
+  scene::Mesh mesh = scene::box(glm::dvec3(-0.4), glm::dvec3(0.3));
+  const std::vector<glm::uvec3> sound = mesh.triangles;
+  mesh.positions.emplace_back(NAN, 0.0, 0.0);
+  mesh.positions.emplace_back(0.0, INFINITY, 0.0);
+  mesh.triangles.emplace_back(0, 1, mesh.positions.size() - 1);
+  mesh.triangles.emplace_back(0, 1, mesh.positions.size() - 2);
+  scene::addPart(scene, "box", mesh, glm::vec3(0.5F));
+  VoxelGrid grid;
+  grid.origin = glm::dvec3(-0.5);
+  grid.voxelSize = 1.0 / 16.3;
+  grid.resolution = glm::ivec3(17);
+  for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin, Coverage::Conservative})
+    EXPECT_EQ(
+        beyond(voxelize(scene, grid, coverage), scene::box(glm::dvec3(-0.4), glm::dvec3(0.3)), grid, kNear),
+        0);
+}
+
+}  // namespace
+}  // namespace limen::voxels
