@@ -41,11 +41,11 @@ double largestOf(const Image& image) {
 TEST_P(LightPaths, AGlowingEnclosureHasTheGeometricSum) {
   constexpr double kEmitted = 0.5, kAlbedo = 0.6;
   for (const double opening : {1.0, 0.3}) {
-    const scene::Scene room = makeScene("global_illumination/room", {{"opening", opening},
-                                                                     {"albedo", kAlbedo},
-                                                                     {"glow", kEmitted},
-                                                                     {"lamp", false},
-                                                                     {"coloured", false}});
+    const scene::Scene room = makeScene("global_illumination/two_rooms", {{"opening", opening},
+                                                                          {"albedo", kAlbedo},
+                                                                          {"glow", kEmitted},
+                                                                          {"lamp", false},
+                                                                          {"coloured", false}});
     double sum = 0.0;
     for (const int64_t bounces : {0, 1, 2, 5}) {
       sum = kEmitted * (1.0 - std::pow(kAlbedo, double(bounces + 1))) / (1.0 - kAlbedo);
@@ -117,16 +117,16 @@ TEST_P(LightPaths, ADiscLightsAPlateByItsFormFactor) {
 
 TEST_P(LightPaths, AClosedWallLetsNothingThrough) {
   for (const double thickness : {0.1, 0.0}) {
-    const scene::Scene room = makeScene("global_illumination/room",
+    const scene::Scene room = makeScene("global_illumination/two_rooms",
                                         {{"opening", 0.0}, {"thickness", thickness}, {"emitter", 10.0}});
     EXPECT_EQ(largestOf(render(room, GetParam(), paths(16, 4, "all"), {48, 36}).product), 0.0);
   }
-  const scene::Scene open = makeScene("global_illumination/room", {{"opening", 0.4}, {"emitter", 10.0}});
+  const scene::Scene open = makeScene("global_illumination/two_rooms", {{"opening", 0.4}, {"emitter", 10.0}});
   EXPECT_GT(meanOf(render(open, GetParam(), paths(16, 2, "all"), {48, 36}).product), 0.01);
 }
 
 TEST_P(LightPaths, PartsAddUp) {
-  const scene::Scene room = makeScene("global_illumination/room", {{"emitter", 1.0}});
+  const scene::Scene room = makeScene("global_illumination/two_rooms", {{"emitter", 1.0}});
   const Image direct = render(room, GetParam(), paths(4, 2, "direct"), {32, 24}).product;
   const Image indirect = render(room, GetParam(), paths(4, 2, "indirect"), {32, 24}).product;
   const Image all = render(room, GetParam(), paths(4, 2, "all"), {32, 24}).product;
@@ -148,10 +148,11 @@ TEST_F(LightPaths, TracersAgreeWithinTheirStandardErrors) {
     const char* name;
     Given given;
   };
-  const Case cases[] = {{"cornell_box", {}},
-                        {"mirrors/room", {}},
-                        {"global_illumination/room", {{"opening", 0.4}}},
-                        {"global_illumination/room", {{"opening", 1.0}, {"emitter", 5.0}, {"lamp", false}}}};
+  const Case cases[] = {
+      {"cornell_box", {}},
+      {"mirrors/room", {}},
+      {"global_illumination/two_rooms", {{"opening", 0.4}}},
+      {"global_illumination/two_rooms", {{"opening", 1.0}, {"emitter", 5.0}, {"lamp", false}}}};
   constexpr glm::ivec2 kSize{64, 48};
   const double pixels = kSize.x * kSize.y;
   for (const Case& given : cases) {
