@@ -80,8 +80,10 @@ class LightGrid {
   void start(frame::Frame& frame);
   /// One step.
   void propagate();
-  /// Array of three channels, harmonics (constant, y, z, x).
+  /// Array of three channels, harmonics (constant, y, z, x): what has arrived at occupied voxels, and what is
+  /// on its way after the last step. Layer: channel * depth + z.
   const gl::Texture& gathered() const { return *gathered_; }
+  const gl::Texture& field() const { return *field_; }
   const voxels::Volume& volume() const { return *volume_; }
   int64_t bytes() const;
   /// Flux that the field holds, per channel, in radiance times world units squared. Waits for the GPU.

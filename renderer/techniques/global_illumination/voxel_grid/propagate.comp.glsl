@@ -26,33 +26,31 @@ float faceFlux(ivec3 voxel, int layer, int face) {
   if (light == vec4(0.0)) return 0.0;
   const vec3 slope = coneLinear * light.wyz;  // x, y, z
   const float flux = max(coneConstant * light.x + dot(slope, faceDirection(face)), 0.0);
-#if SHARES == SHARES_PRINTED
-  return flux;
-#else
-  // All of the voxel's flux leaves it, shared among its open faces as the cones have it.
-  const bool solid = isOccupied(voxel);
-  float open = 0.0, all = 0.0;
+  // Of the cones: all, those within the grid, those to empty voxels.
+  float all = 0.0, within = 0.0, open = 0.0;
   for (int k = 0; k < 6; ++k) {
     const vec3 direction = faceDirection(k);
     const float part = max(coneConstant * light.x + dot(slope, direction), 0.0);
-    all += part;
-#if EXCHANGE == EXCHANGE_OPEN
     const ivec3 beside = voxel + ivec3(direction);
-    if (!solid || (isInGrid(beside) && !isOccupied(beside))) open += part;
-#else
-    open += part;
-#endif
+    all += part;
+    if (!isInGrid(beside)) continue;
+    within += part;
+    if (!isOccupied(beside)) open += part;
   }
-  const float whole = max(light.x, 0.0) * kFluxOfConstant;
 #if EXCHANGE == EXCHANGE_OPEN
-  // A voxel that surfaces enclose shares its light with these.
-  if (solid && open > 1e-4 * all) {
-    const ivec3 to = voxel + ivec3(faceDirection(face));
-    return isOccupied(to) ? 0.0 : flux * whole / open;
+  // Surfaces light empty voxels alone. Those that others enclose, as in the corners of rooms, share their light with these, but
+  // send none out of the grid.
+  if (isOccupied(voxel)) {
+    const bool hasEmpty = open > 1e-4 * all;
+    if (hasEmpty && isOccupied(voxel + ivec3(faceDirection(face)))) return 0.0;
+    all = hasEmpty ? open : within;
   }
-  open = all;
 #endif
-  return open > 0.0 ? flux * whole / open : 0.0;
+#if SHARES == SHARES_PRINTED
+  return flux;
+#else
+  // All of the voxel's flux leaves it, shared among its faces as the cones have it.
+  return all > 0.0 ? flux * max(light.x, 0.0) * kFluxOfConstant / all : 0.0;
 #endif
 }
 
