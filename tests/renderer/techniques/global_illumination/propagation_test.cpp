@@ -223,5 +223,30 @@ TEST_F(LightPropagation, AClosedBoxGathersTheGeometricSum) {
              });
 }
 
+// Behind a closed wall, two voxels and more from its middle, no light arrives in 128 steps, by either rule of
+// shares. The lamp and a panel are in front of it.
+TEST_F(LightPropagation, AClosedWallKeepsAllLight) {
+  for (const double thickness : {0.0, 0.1})
+    for (const GridReflection reflection : {GridReflection::Diffuse, GridReflection::Normal}) {
+      const scene::Scene rooms = makeScene("global_illumination/two_rooms",
+                                           {{"opening", 0.0}, {"thickness", thickness}, {"emitter", 5.0}});
+      LightGridSettings each = settings(FluxShares::Conserving, SolidExchange::Open, reflection);
+      each.resolution = 24;
+      withGrid(rooms, each, [&](LightGrid& grid, const GridState& state) {
+        for (int step = 0; step < 128; ++step) grid.propagate();
+        const std::array<Lobes, 3> found = readLobes(grid.gathered(), state.size);
+        const voxels::VoxelGrid& voxels = grid.volume().grid();
+        double behind = 0.0, all = 0.0;
+        for (size_t i = 0; i < found[0].size(); ++i) {
+          const auto z = static_cast<int>(i / (size_t(state.size.x) * size_t(state.size.y)));
+          all += found[1][i][0];
+          if (voxels.centre({0, 0, z}).z > 2.0 * voxels.voxelSize) behind += std::abs(found[1][i][0]);
+        }
+        EXPECT_GT(all, 0.0);
+        EXPECT_EQ(behind / all, 0.0) << thickness;
+      });
+    }
+}
+
 }  // namespace
 }  // namespace limen::techniques
