@@ -14,9 +14,39 @@ uniform float shift;  // in voxels
 #include "renderer/techniques/global_illumination/voxel_grid/light_lobes.glsl"
 #include "renderer/voxels/volume.glsl"
 
+// Surfaces around it on all sides.
+bool isEnclosed(ivec3 voxel) {
+  if (!isOccupied(voxel)) return false;
+  for (int face = 0; face < 6; ++face) {
+    ivec3 beside = voxel;
+    beside[face >> 1] += (face & 1) == 0 ? 1 : -1;
+    if (isInGrid(beside) && !isOccupied(beside)) return false;
+  }
+  return true;
+}
+
+// Where a surface's light starts. Voxels along the edges of rooms could send it into the next room alone; it starts in front of
+// them, or beside that.
+ivec3 startOf(SurfacePoint point) {
+  const ivec3 first = clamp(ivec3(floor(toVoxels(point.position) + shift * point.flatNormal)), ivec3(0), gridSize() - 1);
+#if EXCHANGE == EXCHANGE_OPEN
+  if (!isEnclosed(first)) return first;
+  const vec3 size = abs(point.flatNormal);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  ivec3 forward = ivec3(0);
+  forward[axis] = point.flatNormal[axis] > 0.0 ? 1 : -1;
+  for (int tried = 0; tried < 6; ++tried) {
+    ivec3 voxel = first + (tried == 1 ? 2 : 1) * forward;
+    if (tried >= 2) voxel[(axis + 1 + (tried >> 1 & 1)) % 3] += (tried & 1) == 0 ? 1 : -1;
+    if (isInGrid(voxel) && !isEnclosed(voxel)) return voxel;
+  }
+#endif
+  return first;
+}
+
 void add(SurfacePoint point, vec3 radiance, float area) {
   if (radiance == vec3(0.0)) return;
-  const ivec3 voxel = clamp(ivec3(floor(toVoxels(point.position) + shift * point.flatNormal)), ivec3(0), gridSize() - 1);
+  const ivec3 voxel = startOf(point);
   // The flux of a diffuse surface is pi times its radiance and area.
   const vec4 lobe = 3.14159265 * area * unitLobe(point.flatNormal, kCosineSlope);
   for (int channel = 0; channel < 3; ++channel)

@@ -80,6 +80,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
 
   gl::ShaderDefines defines = surfaceLightDefines(lighting, frame);
   defines.merge(volume_->defines());
+  defineEnum(defines, "EXCHANGE", settings.exchange);
   inject_ = &context.programs().compute(kFolder + "inject.comp.glsl", defines);
   defines = volume_->defines();
   defines["FIELD_FORMAT"] = settings.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
