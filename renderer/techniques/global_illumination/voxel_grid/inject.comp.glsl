@@ -14,12 +14,13 @@ uniform float shift;  // in voxels
 #include "renderer/techniques/global_illumination/voxel_grid/light_lobes.glsl"
 #include "renderer/voxels/volume.glsl"
 
+ivec3 along(int axis, int steps) { return steps * ivec3(axis == 0, axis == 1, axis == 2); }
+
 // Surfaces around it on all sides.
 bool isEnclosed(ivec3 voxel) {
   if (!isOccupied(voxel)) return false;
   for (int face = 0; face < 6; ++face) {
-    ivec3 beside = voxel;
-    beside[face >> 1] += (face & 1) == 0 ? 1 : -1;
+    const ivec3 beside = voxel + along(face >> 1, (face & 1) == 0 ? 1 : -1);
     if (isInGrid(beside) && !isOccupied(beside)) return false;
   }
   return true;
@@ -33,11 +34,10 @@ ivec3 startOf(SurfacePoint point) {
   if (!isEnclosed(first)) return first;
   const vec3 size = abs(point.flatNormal);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  ivec3 forward = ivec3(0);
-  forward[axis] = point.flatNormal[axis] > 0.0 ? 1 : -1;
+  const ivec3 forward = along(axis, dot(point.flatNormal, vec3(along(axis, 1))) > 0.0 ? 1 : -1);
   for (int tried = 0; tried < 6; ++tried) {
     ivec3 voxel = first + (tried == 1 ? 2 : 1) * forward;
-    if (tried >= 2) voxel[(axis + 1 + (tried >> 1 & 1)) % 3] += (tried & 1) == 0 ? 1 : -1;
+    if (tried >= 2) voxel += along((axis + 1 + (tried >> 1 & 1)) % 3, (tried & 1) == 0 ? 1 : -1);
     if (isInGrid(voxel) && !isEnclosed(voxel)) return voxel;
   }
 #endif

@@ -223,8 +223,8 @@ TEST_F(LightPropagation, AClosedBoxGathersTheGeometricSum) {
              });
 }
 
-// Behind a closed wall, two voxels and more from its middle, no light arrives in 128 steps, by either rule of
-// shares. The lamp and a panel are in front of it.
+// Behind a closed wall, two voxels and more from its middle, no light arrives in 128 steps. The lamp and a
+// panel are in front of it, and two layers of voxels hold the wall.
 TEST_F(LightPropagation, AClosedWallKeepsAllLight) {
   for (const double thickness : {0.0, 0.1})
     for (const GridReflection reflection : {GridReflection::Diffuse, GridReflection::Normal}) {
