@@ -15,12 +15,14 @@ namespace {
 constexpr const char* kTraced = "global_illumination/path_traced";
 constexpr const char* kReference = "global_illumination/path_reference";
 
-class LightPaths : public TechniqueTest, public testing::WithParamInterface<const char*> {
+class LightPaths : public TechniqueTest {
  protected:
   static Given paths(int64_t count, int64_t bounces, const std::string& light) {
     return {{"paths", count}, {"bounces", bounces}, {"light", light}};
   }
 };
+
+class EachTracer : public LightPaths, public testing::WithParamInterface<const char*> {};
 
 double meanOf(const Image& image) {
   double sum = 0.0;
@@ -38,7 +40,7 @@ double largestOf(const Image& image) {
 
 // In an enclosure of any shape whose surfaces all emit Le and reflect a, every path brings Le a^k at its k-th
 // reflection: no noise. A path lost between walls would be missed in its pixel.
-TEST_P(LightPaths, AGlowingEnclosureHasTheGeometricSum) {
+TEST_P(EachTracer, AGlowingEnclosureHasTheGeometricSum) {
   constexpr double kEmitted = 0.5, kAlbedo = 0.6;
   for (const double opening : {1.0, 0.3}) {
     const scene::Scene room = makeScene("global_illumination/two_rooms", {{"opening", opening},
@@ -59,7 +61,7 @@ TEST_P(LightPaths, AGlowingEnclosureHasTheGeometricSum) {
 
 // In a sphere all points see each other alike, so that what is reflected once lights all of it evenly. The
 // cosine towards a lamp at d from the centre is 1 - d^2 / 3 R^2 in the mean over the sphere.
-TEST_P(LightPaths, ASphereIsLitEvenlyByEachReflection) {
+TEST_P(EachTracer, ASphereIsLitEvenlyByEachReflection) {
   constexpr double kRadius = 2.0, kAway = 1.0, kAlbedo = 0.7, kStrength = 0.8;
   constexpr int kCells = 24;
   scene::Scene scene;
@@ -82,7 +84,7 @@ TEST_P(LightPaths, ASphereIsLitEvenlyByEachReflection) {
 }
 
 // Irradiance at distance h below the middle of a disc of radius R: pi Le R^2 / (R^2 + h^2).
-TEST_P(LightPaths, ADiscLightsAPlateByItsFormFactor) {
+TEST_P(EachTracer, ADiscLightsAPlateByItsFormFactor) {
   constexpr double kRadius = 1.0, kHeight = 1.2, kAlbedo = 0.5, kEmitted = 2.0;
   constexpr uint32_t kSegments = 256;
   for (const bool facesPlate : {true, false}) {
@@ -115,7 +117,7 @@ TEST_P(LightPaths, ADiscLightsAPlateByItsFormFactor) {
   }
 }
 
-TEST_P(LightPaths, AClosedWallLetsNothingThrough) {
+TEST_P(EachTracer, AClosedWallLetsNothingThrough) {
   for (const double thickness : {0.1, 0.0}) {
     const scene::Scene room = makeScene("global_illumination/two_rooms",
                                         {{"opening", 0.0}, {"thickness", thickness}, {"emitter", 10.0}});
@@ -125,7 +127,7 @@ TEST_P(LightPaths, AClosedWallLetsNothingThrough) {
   EXPECT_GT(meanOf(render(open, GetParam(), paths(16, 2, "all"), {48, 36}).product), 0.01);
 }
 
-TEST_P(LightPaths, PartsAddUp) {
+TEST_P(EachTracer, PartsAddUp) {
   const scene::Scene room = makeScene("global_illumination/two_rooms", {{"emitter", 1.0}});
   const Image direct = render(room, GetParam(), paths(4, 2, "direct"), {32, 24}).product;
   const Image indirect = render(room, GetParam(), paths(4, 2, "indirect"), {32, 24}).product;
@@ -138,8 +140,8 @@ TEST_P(LightPaths, PartsAddUp) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, LightPaths, testing::Values(kTraced, kReference),
-                         [](const auto& info) { return std::string(info.param).substr(20); });
+INSTANTIATE_TEST_SUITE_P(Both, EachTracer, testing::Values(kTraced, kReference),
+                         [](const auto& tracer) { return std::string(tracer.param).substr(20); });
 
 // Two estimates of one integral differ by as much as their standard errors say: more is a fault of one, less
 // of the errors. A mean over so many pixels shows a bias of a hundredth.
