@@ -38,12 +38,12 @@ struct SurfaceMaterial {  // std430
   float glossRad;      // half-angle of the cone of directions that it comes from
   vec3 transmittance;  // share refracted; 0: opaque
   float refractiveIndex;
-  uint fresnel;  // 1: Schlick's rule for `mirror`
-  uint unused0, unused1, unused2;
+  vec3 emission;  // radiance from the front
+  uint fresnel;   // 1: Schlick's rule for `mirror`
 };
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceMaterial) == 96 && offsetof(SurfaceMaterial, mirror) == 48 &&
-              offsetof(SurfaceMaterial, transmittance) == 64 && offsetof(SurfaceMaterial, fresnel) == 80 &&
+              offsetof(SurfaceMaterial, transmittance) == 64 && offsetof(SurfaceMaterial, emission) == 80 &&
               offsetof(SurfaceMaterial, surface) == 12 && offsetof(SurfaceMaterial, patternOrigin) == 16 &&
               offsetof(SurfaceMaterial, pattern) == 32 && offsetof(SurfaceMaterial, patchPoints) == 44);
 #endif

@@ -29,8 +29,8 @@ std::vector<SurfaceMaterial> materialsOf(const scene::Scene& scene, glm::dvec3 a
                    glm::vec3(pattern.origin - anchor), static_cast<float>(1.0 / pattern.size),
                    static_cast<uint32_t>(pattern.kind), static_cast<float>(pattern.contrast), pattern.octaves,
                    static_cast<uint32_t>(vertexCount(scene)) + 16 * material.patch, material.mirror,
-                   material.glossRad, material.transmittance, material.refractiveIndex,
-                   material.fresnel ? 1U : 0U, 0, 0, 0});
+                   material.glossRad, material.transmittance, material.refractiveIndex, material.emission,
+                   material.fresnel ? 1U : 0U});
   }
   return out;
 }

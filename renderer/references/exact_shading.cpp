@@ -99,9 +99,9 @@ ExactShading::ExactShading(const scene::Scene& scene, const Triangles& triangles
     std::fill_n(materialOf_.begin() + part.firstTriangle, part.triangleCount, part.material);
   for (const scene::Material& material : scene.materials)
     if (material.surface != scene::SurfaceKind::Mesh)
-      throw Error("the reference of reflections knows plain meshes alone; '" + material.name +
-                      "' is lit by its patch or aperture",
-                  {}, "use another scene");
+      throw Error(
+          "this reference knows plain meshes alone; '" + material.name + "' is lit by its patch or aperture",
+          {}, "use another scene");
 }
 
 const scene::Material& ExactShading::material(uint32_t triangle) const {

@@ -26,6 +26,10 @@ class ExactShading {
   ExactPoint point(const ExactRay& ray, const ExactHit& hit) const;
   /// The surface's own light. `shadow`: a ray to the light's centre decides whether it is lit.
   glm::dvec3 colour(const ExactPoint& point, bool shadow) const;
+  /// Diffuse reflectance at a point.
+  glm::dvec3 albedo(const ExactPoint& point) const {
+    return albedo(material(point.triangle), point.position);
+  }
   glm::dvec3 background() const { return glm::dvec3(setting_.background); }
 
  private:

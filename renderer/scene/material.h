@@ -48,9 +48,13 @@ struct Material {
   glm::vec3 transmittance{0.0F};
   /// Of the side that the normal points away from, relative to the other; > 0.
   float refractiveIndex = 1.5F;
+  /// Radiance that leaves the front side in all directions, per channel, >= 0; for techniques of global
+  /// illumination.
+  glm::vec3 emission{0.0F};
 
   bool reflects() const { return mirror != glm::vec3(0.0F); }
   bool refracts() const { return transmittance != glm::vec3(0.0F); }
+  bool emits() const { return emission != glm::vec3(0.0F); }
 };
 
 }  // namespace limen::scene

@@ -110,6 +110,8 @@ void feedExtras(Feed& out, const Scene& scene) {
       out.text("refraction"), out.value(static_cast<uint64_t>(i)), out.vector(material.transmittance);
       out.value(material.refractiveIndex);
     }
+    if (material.emits())
+      out.text("emission"), out.value(static_cast<uint64_t>(i)), out.vector(material.emission);
     const Pattern& pattern = material.pattern;
     if (pattern.kind == Pattern::Kind::None) continue;
     out.text("pattern"), out.value(static_cast<uint64_t>(i));
@@ -235,6 +237,7 @@ std::set<std::string> Scene::traits() const {
     if (material.reflects()) out.insert("mirrors");
     if (material.reflects() && material.glossRad > 0.0F) out.insert("glossy_materials");
     if (material.refracts()) out.insert("refractive_materials");
+    if (material.emits()) out.insert("emissive_materials");
   }
   return out;
 }

@@ -181,7 +181,8 @@ struct Scene {
   /// "disc_light" or "polygonal_light" if it has a uniform colour, otherwise "multi_part_light";
   /// "several_lights", "moving_camera", "lod_sets", "casters", "receiver_only_parts", "curved_surfaces",
   /// "nurbs", "subdivision_surfaces", "trimmed_surfaces", "moving_surfaces", "moving_parts", "item_stream";
-  /// of its parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials".
+  /// of its parts' materials "mirrors" (any that reflect), "glossy_materials", "refractive_materials",
+  /// "emissive_materials".
   std::set<std::string> traits() const;
 };
 

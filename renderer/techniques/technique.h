@@ -96,7 +96,7 @@ struct TechniqueInfo {
   /// One-line account of how well the product is known, for a reference: bound on its own error, if any.
   std::function<std::unique_ptr<Technique>(const ParameterValues&)> make = {};
   /// Half-width of the 99.9 % confidence interval of one pixel's value, worst case, for a reference with
-  /// sampling error; null: exact.
+  /// sampling error; null: exact, or it counts its standard error itself.
   std::function<double(const ParameterValues&)> errorBound = {};
   /// Everything that count() may return: expectations and report axes may name these.
   std::vector<Quantity> counters = {};
