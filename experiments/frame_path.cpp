@@ -88,13 +88,10 @@ std::shared_ptr<const Image> FramePath::reference(const scene::Scene& scene, dou
 void FramePath::render(const perception::PathRequest& request, const perception::PathVisitor& visit) {
   const auto* light = std::get_if<perception::LightPath>(&request.path);
   const auto* camera = std::get_if<perception::CameraPath>(&request.path);
-  if (camera && !onGpu_.scene.traits().count("moving_camera"))
-    throw Error("the camera of scene '" + onGpu_.scene.name + "' does not move", "metric jnd_change, path",
-                "choose a scene with a path of the camera, or move the light");
-  if (camera && !onGpu_.scene.motions.empty())
-    throw Error("parts of scene '" + onGpu_.scene.name +
-                    "' move, and what moves on the picture is known of the camera alone",
-                "metric jnd_change, path", "choose a scene at rest, or move the light");
+  if (camera && !onGpu_.scene.traits().count("moving_camera") && onGpu_.scene.motions.empty())
+    throw Error("neither the camera nor parts of scene '" + onGpu_.scene.name + "' move",
+                "metric jnd_change, path",
+                "choose a scene with a path of the camera or parts that move, or move the light");
   if (light && onGpu_.scene.lights.empty())
     throw Error("scene '" + onGpu_.scene.name + "' has no light to move", "metric jnd_change, path",
                 "choose another scene, or move the camera");

@@ -72,14 +72,15 @@ void runGnuplot(const std::string& folder, const std::string& file,
                 const std::vector<std::string>& pictures) {
   std::array<int, 2> messages{};
   if (pipe(messages.data()) != 0) throw Error("cannot create a pipe", "gnuplot");
+  // Made before: another thread may hold the allocator's lock while the process is copied.
+  const std::string script = "./" + file;
   const pid_t child = fork();
   if (child == 0) {
     dup2(messages[1], 2);
     dup2(messages[1], 1);
     close(messages[0]);
     close(messages[1]);
-    if (chdir(folder.c_str()) == 0)
-      execlp("gnuplot", "gnuplot", ("." + std::string("/") + file).c_str(), static_cast<char*>(nullptr));
+    if (chdir(folder.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
   close(messages[1]);

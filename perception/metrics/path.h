@@ -17,7 +17,8 @@ struct LightPath {
 };
 /// The camera moves on the scene's path.
 struct CameraPath {
-  static constexpr const char *kKind = "camera", *kSummary = "the camera moves on its path";
+  static constexpr const char *kKind = "camera",
+                              *kSummary = "time passes: the camera moves on its path, and parts as they do";
   double stepS = 1.0 / 60.0;  ///< time from frame to frame
   static const SettingsTable<CameraPath>& table();
 };

@@ -86,6 +86,8 @@ class Frame {
   void bindSurfaces() const;
   /// The vertices' positions of this frame.
   const gl::Buffer& positions() const { return positions_ ? *positions_ : gpuScene_.positions(); }
+  /// Where parts move; null: all rest.
+  const MovedVertices* moved() const { return moved_.get(); }
   /// Fills the G-buffer from chosen positions instead of rasterising. Call it before the first get(); the
   /// textures must hold what is seen when an input is made, and outlive this frame.
   void setSeen(const Seen& seen) { seen_ = seen; }

@@ -198,6 +198,7 @@ const uint kGBufferPlanesImage = 1u;  // of the receivers
 const uint kMotionIdsUnit = 0u;
 const uint kMotionDisplacementImage = 0u;
 const uint kMotionPreviousDepthImage = 1u;
+const uint kMotionOfVerticesBuffer = 2u;  // 0: rests; 1 + the number of its part's motion
 
 // Receivers from another eye point.
 const uint kReceiversFromReceiversUnit = 0u;

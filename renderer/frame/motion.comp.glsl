@@ -11,6 +11,10 @@ layout(binding = kMotionPreviousDepthImage, r32f) uniform writeonly image2D outP
 
 uniform mat4 anchorToCamera;
 uniform mat4 nowToThen;  // camera space now to camera space then
+#ifdef MOVING
+layout(std430, binding = kMotionOfVerticesBuffer) readonly buffer MotionOf { uint motionOf[]; };
+uniform mat4 partNowToThen[kMostMotions];  // the same of points of moving parts
+#endif
 uniform vec2 rayScale, rayScaleThen;
 uniform ivec2 sizePx;
 
@@ -24,6 +28,7 @@ void main() {
   const uint id = texelFetch(triangleIds, pixel, 0).x;
   const vec3 ray = pixelRay(pixel, rayScale, sizePx);
   float depth = 0.0, inverse = 0.0;
+  mat4 toThen = nowToThen;
   if (id != kNone) {
     const uvec3 vertices = sceneTriangle(id);
     depth = pointSeen((anchorToCamera * vec4(scenePosition(vertices.x), 1.0)).xyz,
@@ -32,12 +37,17 @@ void main() {
                 .depth;
     // A point at the eye itself has no direction; it counts as very near.
     inverse = min(1.0 / max(depth, 0.0), 1e30);
+#ifdef MOVING
+    const uint motion = motionOf[vertices.x];
+    if (motion > 0u) toThen = partNowToThen[motion - 1u];
+#endif
   }
   // The point over its depth, so that a point at infinity is no special case and a camera at rest gives
   // exactly 0.
-  precise const vec3 then = mat3(nowToThen) * ray + nowToThen[3].xyz * inverse;
+  precise const vec3 then = mat3(toThen) * ray + toThen[3].xyz * inverse;
   const vec2 half_ = 0.5 * vec2(sizePx);
-  // Both places by the same steps, none of them fused with another, so that they are equal where nothing moves.
+  // Both places by the same steps, none of them fused with another, so that they are equal where nothing
+  // moves.
   precise const vec2 nowTangent = ray.xy / -ray.z, thenTangent = then.xy / -then.z;
   precise const vec2 nowNdc = nowTangent / rayScale, thenNdc = thenTangent / rayScaleThen;
   precise vec2 displacement;

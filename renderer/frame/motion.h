@@ -12,7 +12,8 @@ struct MotionSetting {
 };
 
 /// Where the surface point of each pixel lay in the previous frame, the camera having moved along its path by
-/// dt (Schwarz 2009, section 10.3.5). The world itself is static.
+/// dt (Schwarz 2009, section 10.3.5), and parts as they do (scene/part_motion.h). What a mirror shows moves
+/// with the mirror here.
 class Motion : public FrameInput {
  public:
   static constexpr const char* kName = "motion";
@@ -29,6 +30,8 @@ class Motion : public FrameInput {
   const gl::Texture& previousDepth() const { return previousDepth_; }
 
  private:
+  void setParts(const Frame& frame, const glm::dmat4& nowToThen) const;
+
   MotionSetting setting_;
   const gl::Program& program_;
   gl::Texture displacement_, previousDepth_;

@@ -26,6 +26,8 @@ class MovedVertices {
   /// Dispatches; nothing waits. Storage buffers 0 to 4 are bound anew.
   void update(double timeS) const;
 
+  /// A word a vertex: 0, or 1 + the number of its motion.
+  const gl::Buffer& motionOf() const { return motionOf_; }
   const gl::Buffer& positions() const { return positions_; }
   const gl::Buffer* normals() const { return normals_ ? &*normals_ : nullptr; }
   int64_t bytes() const;

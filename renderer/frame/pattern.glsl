@@ -14,6 +14,9 @@ float checkerMean(float at, float width) {
   return (checkerIntegral(at + 0.5 * width) - checkerIntegral(at - 0.5 * width)) / width;
 }
 
+// Mean of the checker over a box.
+float checkerOver(vec3 at, vec3 width) { return checkerMean(at.x, width.x) * checkerMean(at.y, width.y) * checkerMean(at.z, width.z); }
+
 // The checker over a parallelogram with these sides: boxes along the longer one, each as wide as its share of that side and the
 // shorter one are along each axis. As an anisotropic filter of a texture, with up to 16 places.
 float checkerWithin(vec3 at, vec3 sideA, vec3 sideB) {
@@ -23,10 +26,7 @@ float checkerWithin(vec3 at, vec3 sideA, vec3 sideB) {
   const int places = int(clamp(ceil(ratio), 1.0, 16.0));
   const vec3 width = abs(along) / float(places) + abs(across);
   float sum = 0.0;
-  for (int i = 0; i < places; ++i) {
-    const vec3 place = at + along * ((float(i) + 0.5) / float(places) - 0.5);
-    sum += checkerMean(place.x, width.x) * checkerMean(place.y, width.y) * checkerMean(place.z, width.z);
-  }
+  for (int i = 0; i < places; ++i) sum += checkerOver(at + along * ((float(i) + 0.5) / float(places) - 0.5), width);
   return sum / float(places);
 }
 
@@ -64,20 +64,6 @@ float fractalNoise(vec3 at, int octaves) {
     at *= 2.0;
   }
   return total > 0.0 ? sum / total : 0.0;
-}
-
-// Mean over an interval of a square wave that is 1 from 0 to 1 and -1 from 1 to 2.
-float squareWaveOver(float at, float wide) {
-  if (wide < 1e-3) return fract(0.5 * at) < 0.5 ? 1.0 : -1.0;
-  // Its integral from 0 on.
-  const vec2 ends = 2.0 * fract(0.5 * (at + vec2(-0.5, 0.5) * wide));
-  const vec2 sums = 1.0 - abs(ends - 1.0);
-  return (sums.y - sums.x) / wide;
-}
-
-// Mean of the checker over a box.
-float checkerOver(vec3 at, vec3 wide) {
-  return squareWaveOver(at.x, wide.x) * squareWaveOver(at.y, wide.y) * squareWaveOver(at.z, wide.z);
 }
 
 // Noise without the octaves that a width blurs: those whose lattice is finer fade out.

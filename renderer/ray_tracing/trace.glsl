@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays against the triangles of a RayTree: rayAnyHit() and rayClosestHit().
+// Rays against the triangles of a RayTree: rayAnyHit() and rayClosestHit(). With RAY_GRID: of a TriangleGrid.
 //
 // Traversal: Ylitie, Karras and Laine 2017 (compressed wide BVH), children in the order of the ray's octant.
 // Every box is widened by a bound on the rounding of its distances, so that no ray passes between boxes, runs in the
@@ -11,10 +11,14 @@
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
 #include "renderer/ray_tracing/ray_triangle.glsl"
 
+#ifdef RAY_GRID
+layout(std430, binding = kRayNodesBuffer) readonly buffer RayCells { uint rayCells[]; };  // first entry of each; then triangles
+#else
 layout(std430, binding = kRayNodesBuffer) readonly buffer RayNodes { uvec4 rayNodes[]; };          // 5 a node
+#endif
 layout(std430, binding = kRayTrianglesBuffer) readonly buffer RayTriangles { vec4 rayTriangles[]; };  // 3 a triangle
 
-uniform uint rayNodeCount;      // 0: nothing to hit
+uniform uint rayNodeCount;      // or of cells; 0: nothing to hit
 uniform int maxRayIterations;  // of all loops of an invocation that the driver's compiler allows
 
 struct Ray {
@@ -59,6 +63,9 @@ bool rayHitsTriangle(Ray ray, RayShear shear, uint index, inout RayHit hit) {
   return true;
 }
 
+#ifdef RAY_GRID
+#include "renderer/ray_tracing/grid_traverse.glsl"
+#else
 // 1 + byte / 256, for byte i of a word.
 float rayPlane(uint word, int i) {
   const uint bits = i == 0 ? word << 15 : i == 1 ? word << 7 : i == 2 ? word >> 1 : word >> 9;
@@ -145,6 +152,7 @@ RayHit rayTraverse(Ray ray, bool anyIsEnough) {
   }
   return hit;
 }
+#endif
 
 // The hit nearest to the origin, its t ray.far and its triangle kRayNoTriangle if there is none.
 RayHit rayClosestHit(Ray ray) { return rayTraverse(ray, false); }

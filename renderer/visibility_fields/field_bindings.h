@@ -15,6 +15,7 @@ const uint kFieldMapsBuffer =
 const uint kFieldObjectOfBuffer = 4u;  // of each triangle of the scene, uint; kFieldNoObject: none
 const uint kFieldSumsBuffer =
     5u;  // of each word of an object while its field is made: vec2 sum and number of hits
+const uint kFieldCornersBuffer = 2u;  // while a field with normals is made: vec4 a corner of each triangle
 const uint kFieldCutShortBuffer =
     4u;  // while a field is made: number of words that a software renderer's limit cut short
 const uint kFieldWordsUnit = 8u;  // usampler2DArray
@@ -30,7 +31,9 @@ struct FieldObject {  // std430
   float radius;
   vec4 axisX, axisY, axisZ;  // of the object in the world, unit; w unused
   uint firstMap;             // of its field
-  uint unused0, unused1, unused2;
+  uint owner;                // number of the rigid object that it is, or a part of
+  uint albedo;               // packUnorm4x8
+  uint unused;
 };
 #ifdef __cplusplus
 static_assert(sizeof(FieldObject) == 80 && offsetof(FieldObject, axisX) == 16);

@@ -17,15 +17,10 @@ static_assert(static_cast<int>(DirectionForm::Polar) == kFieldPolar &&
 const SettingsTable<FieldForm>& FieldForm::table() {
   using S = FieldForm;
   static const SettingsTable<S> kTable = {
-      {&S::positionMap, "position_map", "How positions are spread over the bounding sphere",
-       "Gaitatzes 2012, section 4.4.3"},
-      {&S::positions, "positions", oneOf({82, 290, 1090, 4226, 16642}), "",
-       "Positions on the sphere; of a grid or a box the nearest number that it allows",
-       "Gaitatzes 2012, Fig. 35"},
-      {&S::directionMap, "direction_map", "How directions are spread over the texels of a position's map",
-       "Gaitatzes 2012, section 4.4.4"},
-      {&S::directions, "directions", oneOf({8, 16, 32, 64, 128, 256}), "texels",
-       "Directions along each side of a position's map", "Gaitatzes 2012, Fig. 35"},
+      positionMapBinding(&S::positionMap),
+      positionsBinding(&S::positions),
+      directionMapBinding(&S::directionMap),
+      directionsBinding(&S::directions),
       {&S::bits, "bits", oneOf({1, 8, 16, 32}), "bit",
        "Storage of a ray: 32 is a float; 1 tells hit from miss, with a mean distance for each position",
        "Gaitatzes 2012, section 4.6"}};
@@ -39,7 +34,8 @@ gl::ShaderDefines FieldForm::defines() const {
           {"FIELD_POSITIONS", std::to_string(map.points().size())},
           {"FIELD_DIRECTION_FORM", std::to_string(static_cast<int>(directionMap))},
           {"FIELD_SIDE", std::to_string(directions)},
-          {"FIELD_BITS", std::to_string(bits)}};
+          {"FIELD_BITS", std::to_string(bits)},
+          {"FIELD_DISTANCE_BITS", std::to_string(distanceBits == 0 ? bits : distanceBits)}};
 }
 
 }  // namespace limen::visibility_fields

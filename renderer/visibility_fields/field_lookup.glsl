@@ -97,23 +97,49 @@ FieldPassage fieldPassage(FieldObject object, vec3 origin, vec3 direction) {
   return passage;
 }
 
-// Distance to the object along the ray; kFieldNothing: none. From inside its sphere the field tells what is met first on the way
+// Where a ray meets an object.
+struct FieldHit {
+  float distance;  // kFieldNothing: none
+  FieldEntry entry;  // of the field, if the ray meets the sphere
+  bool inside;       // the sphere
+};
+
+// From inside its sphere the field tells what is met first on the way
 // back from where the ray leaves: the ray is blocked if that lies before the origin by more than `slack` diameters, and the
 // distance is the farthest that the blocker can be.
-float fieldDistance(uint index, vec3 origin, vec3 direction, float slack) {
-  const FieldObject object = fieldObjects[index];
+FieldHit fieldHit(FieldObject object, vec3 origin, vec3 direction, float slack) {
+  FieldHit hit;
+  hit.distance = kFieldNothing;
   const FieldPassage passage = fieldPassage(object, origin, direction);
-  if (!(passage.leave > max(passage.entry, 0.0))) return kFieldNothing;
+  if (!(passage.leave > max(passage.entry, 0.0))) return hit;
   ++fieldLookUps;
   const vec3 way = fieldToObject(object, direction);
   const vec3 middle = fieldToObject(object, passage.middle);
-  const bool inside = passage.entry < 0.0;
-  const vec3 point = normalize(middle + (inside ? passage.halfLength : -passage.halfLength) * way);
-  const FieldEntry entry = fieldEntry(object.firstMap, point, inside ? -way : way);
-  const float share = fieldShare(entry.map, entry.texel);
-  if (share < 0.0) return kFieldNothing;
+  hit.inside = passage.entry < 0.0;
+  const vec3 point = normalize(middle + (hit.inside ? passage.halfLength : -passage.halfLength) * way);
+  hit.entry = fieldEntry(object.firstMap, point, hit.inside ? -way : way);
+  const float share = fieldShare(hit.entry.map, hit.entry.texel);
+  if (share < 0.0) return hit;
   const float fromSphere = 2.0 * object.radius * share;
-  if (!inside) return passage.entry + fromSphere;
+  if (!hit.inside) {
+    hit.distance = passage.entry + fromSphere;
+    return hit;
+  }
   const float before = passage.leave - fromSphere;
-  return before > 2.0 * object.radius * slack ? before : kFieldNothing;
+  if (before > 2.0 * object.radius * slack) hit.distance = before;
+  return hit;
 }
+
+// Distance to the object along the ray; kFieldNothing: none.
+float fieldDistance(uint index, vec3 origin, vec3 direction, float slack) {
+  return fieldHit(fieldObjects[index], origin, direction, slack).distance;
+}
+
+#if FIELD_DISTANCE_BITS < FIELD_BITS
+// Normal where a ray meets the object, in the world, on the side that the ray comes from.
+vec3 fieldNormalAt(FieldObject object, FieldHit hit) {
+  const vec3 n = fieldHitNormal(hit.entry.map, hit.entry.texel);
+  const vec3 normal = n.x * object.axisX.xyz + n.y * object.axisY.xyz + n.z * object.axisZ.xyz;
+  return hit.inside ? -normal : normal;
+}
+#endif

@@ -12,6 +12,18 @@ layout(std430, binding = kFieldCutShortBuffer) buffer CutShort { uint cutShort; 
 #if FIELD_BITS == 1
 layout(std430, binding = kFieldSumsBuffer) writeonly buffer Sums { vec2 sums[]; };
 #endif
+#if FIELD_DISTANCE_BITS < FIELD_BITS
+// Of each triangle's corners: the normal for shading; in w, of all three, the normal by the order of the corners.
+layout(std430, binding = kFieldCornersBuffer) readonly buffer Corners { vec4 corners[]; };
+const int kNormalBits = (FIELD_BITS - FIELD_DISTANCE_BITS) / 2;
+
+vec3 hitNormal(RayHit hit, vec3 direction) {
+  const vec4 a = corners[3u * hit.triangle], b = corners[3u * hit.triangle + 1u], c = corners[3u * hit.triangle + 2u];
+  const vec3 normal = normalize((1.0 - hit.u - hit.v) * a.xyz + hit.u * b.xyz + hit.v * c.xyz);
+  // The triangle decides between front and back.
+  return dot(vec3(a.w, b.w, c.w), direction) > 0.0 ? -normal : normal;
+}
+#endif
 uniform int fieldSliceSide, firstMap;  // the object's
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
@@ -32,6 +44,7 @@ void main() {
     const ivec2 texel = ivec2(word.x * kTexelsPerWord + i, word.y);
     if (texel.x >= FIELD_SIDE) break;
     float share = -1.0;
+    uint normal = 0u;
     if (fieldTexelUsed(texel, FIELD_SIDE, FIELD_DIRECTION_FORM)) {
       const vec3 local = fieldDirection((vec2(texel) + 0.5) / float(FIELD_SIDE), FIELD_DIRECTION_FORM);
       const vec3 direction = local.x * x + local.y * y + local.z * z;
@@ -39,9 +52,14 @@ void main() {
       if (hit.triangle != kRayNoTriangle) {
         share = 0.5 * hit.t;
         sum += vec2(share, 1.0);
+#if FIELD_DISTANCE_BITS < FIELD_BITS
+        normal = fieldNormalCode(hitNormal(hit, direction), kNormalBits);
+#endif
       }
     }
-#if FIELD_BITS == 32
+#if FIELD_DISTANCE_BITS < FIELD_BITS
+    bits = (share < 0.0 ? fieldMissCode(FIELD_DISTANCE_BITS) : fieldHitCode(share, FIELD_DISTANCE_BITS)) | (normal << FIELD_DISTANCE_BITS);
+#elif FIELD_BITS == 32
     bits = floatBitsToUint(share);
 #else
     bits |= (share < 0.0 ? fieldMissCode(FIELD_BITS) : fieldHitCode(share, FIELD_BITS)) << uint(FIELD_BITS * i);

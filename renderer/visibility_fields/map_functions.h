@@ -138,6 +138,26 @@ FIELD_FUNCTION float fieldCodeStep(int bits) {
   return bits >= 32 || bits == 1 ? 0.0F : 1.0F / float(fieldMissCode(bits) - 1u);
 }
 
+// A unit vector as two numbers of `bits` bits each, on the square that an octahedron unfolds to (Meyer et al.
+// 2010).
+FIELD_FUNCTION uint fieldNormalCode(vec3 n, int bits) {
+  const float sum = abs(n.x) + abs(n.y) + abs(n.z);
+  vec2 place = vec2(n.x, n.y) / sum;
+  if (n.z < 0.0F)
+    place = vec2((1.0F - abs(n.y) / sum) * (n.x < 0.0F ? -1.0F : 1.0F),
+                 (1.0F - abs(n.x) / sum) * (n.y < 0.0F ? -1.0F : 1.0F));
+  const float most = float((1u << uint(bits)) - 1u);
+  const uint x = uint(floor(clamp(0.5F * place.x + 0.5F, 0.0F, 1.0F) * most + 0.5F));
+  const uint y = uint(floor(clamp(0.5F * place.y + 0.5F, 0.0F, 1.0F) * most + 0.5F));
+  return x | (y << uint(bits));
+}
+FIELD_FUNCTION vec3 fieldNormal(uint code, int bits) {
+  const uint mask = (1u << uint(bits)) - 1u;
+  const vec2 p = 2.0F * vec2(float(code & mask), float((code >> uint(bits)) & mask)) / float(mask) - 1.0F;
+  const float z = 1.0F - abs(p.x) - abs(p.y), fold = max(-z, 0.0F);
+  return normalize(vec3(p.x + (p.x < 0.0F ? fold : -fold), p.y + (p.y < 0.0F ? fold : -fold), z));
+}
+
 #ifdef __cplusplus
 }  // namespace limen::visibility_fields
 #endif

@@ -36,8 +36,30 @@ class Connected {
 
 }  // namespace
 
+const SettingsTable<AutoObjects>& AutoObjects::table() {
+  static const SettingsTable<AutoObjects> kTable = {
+      {&AutoObjects::mostPieces,
+       "most_pieces",
+       {1, 256},
+       "",
+       "Pieces of a part that have a field each; a part of more is one object. A field takes positions x "
+       "directions x "
+       "directions x bits / 8 bytes"}};
+  return kTable;
+}
+
+const SettingsTable<PartObjects>& PartObjects::table() {
+  static const SettingsTable<PartObjects> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<PieceObjects>& PieceObjects::table() {
+  static const SettingsTable<PieceObjects> kTable = {};
+  return kTable;
+}
+
 RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& positions,
-                            const std::vector<glm::uvec3>& triangles) {
+                            const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals) {
   RigidObject object;
   object.name = std::move(name);
   std::map<uint32_t, uint32_t> own;
@@ -47,6 +69,7 @@ RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& pos
     for (int corner = 0; corner < 3; ++corner) {
       const auto [at, fresh] = own.emplace(triangle[corner], static_cast<uint32_t>(used.size()));
       if (fresh) used.push_back(positions[triangle[corner]]);
+      if (fresh && !normals.empty()) object.normals.push_back(normals[triangle[corner]]);
       mine[corner] = at->second;
     }
     object.triangles.push_back(mine);
@@ -58,29 +81,62 @@ RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& pos
   return object;
 }
 
-RigidObjects rigidObjectsOf(const scene::Scene& scene, ObjectForm form) {
+namespace {
+
+/// Numbers of a part's triangles whose vertices are finite.
+std::vector<uint32_t> finiteTriangles(const scene::Mesh& mesh, const scene::Part& part) {
+  std::vector<uint32_t> finite;
+  for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    if (isFinite(mesh.positions[t.x]) && isFinite(mesh.positions[t.y]) && isFinite(mesh.positions[t.z]))
+      finite.push_back(i);
+  }
+  return finite;
+}
+
+using Triangles = std::vector<uint32_t>;
+
+std::vector<Triangles> connectedPieces(const scene::Mesh& mesh, const Triangles& all) {
+  Connected connected(mesh.positions.size());
+  for (const uint32_t i : all) {
+    const glm::uvec3 t = mesh.triangles[i];
+    connected.join(t.x, t.y), connected.join(t.x, t.z);
+  }
+  std::map<uint32_t, Triangles> pieces;
+  for (const uint32_t i : all) pieces[connected.root(mesh.triangles[i].x)].push_back(i);
+  std::vector<Triangles> out;
+  for (auto& [root, piece] : pieces) out.push_back(std::move(piece));
+  return out;
+}
+
+}  // namespace
+
+RigidObjects rigidObjectsOf(const scene::Scene& scene, const ObjectSetting& setting) {
   RigidObjects out;
   out.objectOf.assign(scene.mesh.triangles.size(), kFieldNoObject);
+  size_t partsLeft = 0;
+  for (const scene::Part& part : scene.parts) partsLeft += part.receiverOnly ? 0 : 1;
   for (const scene::Part& part : scene.parts) {
     if (part.receiverOnly) continue;
-    std::vector<uint32_t> finite;
-    Connected connected(form == ObjectForm::Pieces ? scene.mesh.positions.size() : 0);
-    for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i) {
-      const glm::uvec3 t = scene.mesh.triangles[i];
-      const auto& positions = scene.mesh.positions;
-      if (!isFinite(positions[t.x]) || !isFinite(positions[t.y]) || !isFinite(positions[t.z])) continue;
-      finite.push_back(i);
-      if (form == ObjectForm::Pieces) connected.join(t.x, t.y), connected.join(t.x, t.z);
+    --partsLeft;
+    const Triangles finite = finiteTriangles(scene.mesh, part);
+    if (finite.empty()) continue;
+    std::vector<Triangles> pieces = {finite};
+    if (!std::holds_alternative<PartObjects>(setting)) {
+      std::vector<Triangles> each = connectedPieces(scene.mesh, finite);
+      const auto* few = std::get_if<AutoObjects>(&setting);
+      if (!few || (each.size() <= static_cast<size_t>(few->mostPieces) &&
+                   out.objects.size() + each.size() + partsLeft <= kMostFieldObjects))
+        pieces = std::move(each);
     }
-    std::map<uint32_t, std::vector<uint32_t>> pieces;
-    for (const uint32_t i : finite)
-      pieces[form == ObjectForm::Pieces ? connected.root(scene.mesh.triangles[i].x) : 0].push_back(i);
-    for (const auto& [root, numbers] : pieces) {
+    for (const Triangles& numbers : pieces) {
       std::vector<glm::uvec3> triangles;
       for (const uint32_t i : numbers) triangles.push_back(scene.mesh.triangles[i]);
-      RigidObject object = makeRigidObject(part.name, scene.mesh.positions, triangles);
+      RigidObject object = makeRigidObject(part.name, scene.mesh.positions, triangles, scene.mesh.normals);
       if (!(object.sphere.radius > 0.0)) continue;
-      for (const uint32_t i : numbers) out.objectOf[i] = static_cast<uint32_t>(out.objects.size());
+      object.albedo = scene.materials[part.material].albedo;
+      object.owner = static_cast<uint32_t>(out.objects.size());
+      for (const uint32_t i : numbers) out.objectOf[i] = object.owner;
       out.objects.push_back(std::move(object));
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/gl/buffer.h"
@@ -26,9 +27,12 @@ struct Pose {
 class VisibilityFields {
  public:
   /// Makes the fields in compute. `tolerance`: codes of 8 bits may change by as much, so that runs of equal
-  /// ones are longer; 0: none does. Throws Error if the device cannot hold them.
+  /// ones are longer; 0: none does. `folder`: where fields are kept (field_store.h), and read from if they
+  /// are there; "": nowhere. Throws Error if the device cannot hold them, or the folder not be written.
   VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects, const FieldForm& form,
-                   int tolerance = 0);
+                   int tolerance = 0, const std::string& folder = {});
+  /// Of the objects, those whose fields were read and not made.
+  uint32_t fieldsRead() const { return fieldsRead_; }
 
   /// Where objects stand, relative to `anchor`; one pose an object. They stand where they were made until it
   /// is called, relative to the origin.
@@ -57,11 +61,17 @@ class VisibilityFields {
  private:
   void make(gl::Context& context, const RigidObject& object, uint32_t index) const;
   void lengthen(int tolerance) const;
+  uint32_t readOrMake(gl::Context& context, const std::vector<RigidObject>& objects,
+                      const std::string& folder) const;
+  /// As readWords() gives them; none: left as they are.
+  void writeWords(const std::vector<std::vector<uint32_t>>& ofObjects) const;
+  std::vector<float> readMeans(uint32_t object) const;
   int mapsPerObject() const { return static_cast<int>(positionMap_.points().size()); }
 
   FieldForm form_;
   PositionMap positionMap_;
-  uint32_t objectCount_;
+  uint32_t objectCount_, fieldsRead_ = 0;
+  std::vector<uint32_t> owners_, albedos_;
   int sliceSide_;
   std::optional<gl::Texture> words_;
   gl::Buffer maps_, objects_;

@@ -45,7 +45,11 @@ void Voxelizer::add(const frame::Frame& frame, const Volume& into) const {
   program_.use();
   const uint32_t groups = (triangles + kVoxelizeGroup - 1) / kVoxelizeGroup;
   const uint32_t rows = (groups + 65534) / 65535;
-  glDispatchCompute((groups + rows - 1) / rows, rows, std::clamp(kSharingGroups / groups, 1U, kMostLayers));
+  // No more layers of groups than the largest triangle has columns for.
+  const glm::ivec3 size = into.grid().resolution;
+  const int side = std::max({size.x, size.y, size.z});
+  const uint32_t most = std::clamp(static_cast<uint32_t>(side * side / kVoxelizeGroup), 1U, kMostLayers);
+  glDispatchCompute((groups + rows - 1) / rows, rows, std::clamp(kSharingGroups / groups, 1U, most));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT);
 }

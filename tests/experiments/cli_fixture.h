@@ -46,18 +46,17 @@ class SweepCli : public testing::Test {
 
   /// Starts the program; its outputs go to files NAME.out and NAME.err.
   pid_t start(const std::vector<std::string>& arguments, const std::string& name = "call") const {
-    const pid_t child = fork();
-    if (child != 0) return child;
+    // Made before: another thread may hold the allocator's lock while the process is copied.
     std::vector<std::string> words = {program_};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> raw;
     for (std::string& word : words) raw.push_back(word.data());
     raw.push_back(nullptr);
-    const auto redirect = [&](const char* end, int target) {
-      dup2(open(path(name + end).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), target);
-    };
-    redirect(".out", STDOUT_FILENO);
-    redirect(".err", STDERR_FILENO);
+    const std::string out = path(name + ".out"), err = path(name + ".err");
+    const pid_t child = fork();
+    if (child != 0) return child;
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (chdir(folder_.c_str()) != 0) _exit(126);
     execv(raw[0], raw.data());
     _exit(127);

@@ -51,10 +51,11 @@ TEST(MovingScene, EveryTechniqueRefusesItOrShowsTheMovedState) {
     }
   }
   for (const char* name :
-       {"reflections/ray_hierarchy", "reflections/vertex_reflection", "reflections/reference"})
+       {"reflections/ray_hierarchy", "reflections/vertex_reflection", "reflections/environment_map",
+        "reflections/screen_space", "reflections/reference"})
     EXPECT_TRUE(shown.count(name)) << name;
-  // What keeps a tree, maps or planes, and what knows nothing of motion.
-  for (const char* name : {"reflections/ray_traced", "reflections/environment_map", "soft_shadows/hard"})
+  // What keeps a tree, shadow maps or planes, and what knows nothing of motion.
+  for (const char* name : {"reflections/ray_traced", "reflections/planar_mirror", "soft_shadows/hard"})
     EXPECT_TRUE(refused.count(name)) << name;
 }
 

@@ -12,7 +12,7 @@ layout(binding = kIsocurveNormalsImage, rgba32f) uniform writeonly image2D norma
 #endif
 #ifdef COUNTING
 layout(binding = kIsocurveCountsImage, r32ui) uniform uimage2D counts;
-layout(std430, binding = kIsocurveDriftBuffer) buffer Drift { uint mostDrift, mostSteps, filledPieces; };
+layout(std430, binding = kIsocurveDriftBuffer) buffer Drift { uint mostDrift, mostSteps, filledPieces, mostRounds; };
 #endif
 
 uniform mat4 anchorToClip;

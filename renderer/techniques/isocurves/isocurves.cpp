@@ -136,7 +136,7 @@ class Isocurves : public Technique {
     const gl::Texture counts(gl::Format::R32UI, frame.sizePx());
     counts.clearUint(glm::uvec4(0));
     counts.bindImage(kIsocurveCountsImage, gl::Access::ReadWrite);
-    const gl::Buffer drift(std::vector<uint32_t>{0, 0, 0});
+    const gl::Buffer drift(std::vector<uint32_t>{0, 0, 0, 0});
     drift.bindStorage(kIsocurveDriftBuffer);
     walk(frame, *countingProgram_);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -144,6 +144,11 @@ class Isocurves : public Technique {
     for (const uint32_t one : counts.readUint()) points += one, covered += one > 0;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     const std::vector<uint32_t> measured = drift.read<uint32_t>();
+    if (frame.context().device().software && measured[3] > uint32_t{kIsocurveRounds})
+      throw Error("a part of a patch takes " + std::to_string(measured[3]) +
+                      " loop rounds; this software renderer ends loops after " +
+                      std::to_string(kIsocurveRounds),
+                  "stepping", "raise 'spacing_px', render a smaller picture, use uniform steps, or a GPU");
     std::vector<Counter> out = {{"points_per_px", points / std::max(covered, 1.0)},
                                 {"drift_px", double(std::bit_cast<float>(measured[0]))},
                                 {"steps_most", double(measured[1])},
@@ -185,7 +190,8 @@ class Isocurves : public Technique {
     patches_->bindStorage();
     depths_->bindImage(kIsocurveDepthImage, gl::Access::ReadWrite);
     program.use();
-    glDispatchCompute(inParts_ ? kIsocurveParts : kMostIsocurves / kIsocurveGroup + 1, patches_->count(), 1);
+    glDispatchCompute(inParts_ ? kIsocurveParts : kMostIsocurves / kIsocurveGroup + 1, patches_->count(),
+                      inParts_ && frame.context().device().software ? kIsocurveSharers : 1);
   }
 
   Settings settings_;

@@ -87,6 +87,10 @@ float bend(int stride, int across) {
 }
 
 #ifdef COUNTING
+// Loop rounds that each of the group's invocations has taken, rounded up: those of a piece's tests, and one for each point.
+uint rounds = 0u;
+const uint kRoundsOfVisit = 128u;
+
 // How far a point by differences lies from the patch's, which is evaluated in double precision.
 void measureDrift(vec4 found, double u, double v, uint steps) {
   atomicMax(mostSteps, steps);
@@ -130,8 +134,13 @@ void curveAt(float t, out vec4 c[4]) {
 
 uint stepsFor(float most) { return uint(clamp(ceil(3.0 * most / spacing), 1.0, float(kMostIsocurves))); }
 
+// Groups that share a part of a patch: each draws every so many of its curves.
+uint sharers() { return gl_NumWorkGroups.z; }
+uint curvesSoFar = 0u;
+
 // All invocations share a curve's points.
 void drawCurve(float t, vec2 u, vec2 v) {
+  if (curvesSoFar++ % sharers() != gl_WorkGroupID.z) return;
   vec4 c[4];
   curveAt(t, c);
   float most = 0.0;
@@ -139,12 +148,19 @@ void drawCurve(float t, vec2 u, vec2 v) {
     most = c[i].w < nearest || c[i + 1].w < nearest ? 1e30 : max(most, distance(c[i].xy / c[i].w, c[i + 1].xy / c[i + 1].w));
   const uint steps = stepsFor(most), lanes = uint(kIsocurveGroup), share = steps / lanes + 1u;
   const uint first = gl_LocalInvocationIndex * share;
+#ifdef COUNTING
+  rounds += share + 4u;
+#endif
   if (first <= steps) walkCurve(c, u, mix(v.x, v.y, t), first, min(first + share - 1u, steps), steps);
 }
 
 // Each invocation has curves of its own.
 void fill(uint curves, uint steps, vec2 u, vec2 v) {
-  for (uint k = gl_LocalInvocationIndex; k <= curves; k += uint(kIsocurveGroup)) {
+  const uint lanes = uint(kIsocurveGroup) * sharers();
+#ifdef COUNTING
+  rounds += (curves / lanes + 1u) * (steps + 2u);
+#endif
+  for (uint k = gl_LocalInvocationIndex + uint(kIsocurveGroup) * gl_WorkGroupID.z; k <= curves; k += lanes) {
     const float t = float(k) / float(curves);
     vec4 c[4];
     curveAt(t, c);
@@ -177,7 +193,7 @@ int visit(uvec4 piece, vec2 u, vec2 v) {
   if (failsV) return 2;
   fill(stepsV, stepsU, u, v);
 #ifdef COUNTING
-  if (gl_LocalInvocationIndex == 0u) atomicAdd(filledPieces, 1u);
+  if (gl_LocalInvocationIndex == 0u && gl_WorkGroupID.z == 0u) atomicAdd(filledPieces, 1u);
 #endif
   return 0;
 #endif
@@ -207,6 +223,9 @@ void main() {
     const vec2 u = vec2(piece.xy) / float(kMostIsocurves), v = vec2(piece.zw) / float(kMostIsocurves);
     restrict_(u, v);
     const int halved = visit(piece, u, v);
+#ifdef COUNTING
+    rounds += kRoundsOfVisit;
+#endif
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
       stackSize = size - 1;
@@ -219,4 +238,7 @@ void main() {
     }
     barrier();
   }
+#ifdef COUNTING
+  atomicMax(mostRounds, rounds);
+#endif
 }

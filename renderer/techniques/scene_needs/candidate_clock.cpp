@@ -12,8 +12,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kMostSeconds = 0.5;
-/// An idle GPU takes some time to reach its clock rate.
-constexpr double kWakingSeconds = 0.2;
+/// An idle GPU takes some time to reach its clock rate, and loses it after some.
+constexpr double kWakingSeconds = 0.2, kDozingSeconds = 0.02;
 
 double secondsSince(steady_clock::time_point start) {
   return std::chrono::duration<double>(steady_clock::now() - start).count();
@@ -52,13 +52,13 @@ std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
                      frame_.raster());
   technique->prepare(frame);
   const auto waking = steady_clock::now();
+  const bool dozes = !software() && secondsSince(lastBusy_) > kDozingSeconds;
   for (int i = 0; i == 0 || (i < timing_.warmup && secondsSince(waking) < kMostSeconds) ||
-                  (!awake_ && !software() && secondsSince(waking) < kWakingSeconds);
+                  (dozes && secondsSince(waking) < kWakingSeconds);
        ++i) {
     renderFrame(frame, *technique);
     glFinish();
   }
-  awake_ = true;
   frame.passes().startRecording(software() ? gl::Clock::Wall : gl::Clock::Gpu, timing_.frames,
                                 gl::Recorded::Frames);
   const auto start = steady_clock::now();
@@ -68,6 +68,7 @@ std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
     if (i == 0) glFinish();
   }
   const std::vector<gl::PassTime> times = frame.passes().finishRecording();
+  lastBusy_ = steady_clock::now();
   double addedMs = 0.0;
   if (!added_.empty())
     for (const Counter& counter : technique->count(frame))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,9 @@ struct CandidateTiming {
 
 /// Times frames of the given frame's view and size that are rendered for this alone: by timestamps of the
 /// GPU, or of a software renderer, whose timestamps are wrong, by the wall clock around glFinish. Slow
-/// candidates get fewer frames: no more are rendered after half a second.
+/// candidates get fewer frames: no more are rendered after half a second. While a candidate's shaders are
+/// compiled a GPU idles and lowers its clock rate (an H200 showed three times the time after it): it is
+/// woken first.
 class FrameClock : public CandidateClock {
  public:
   /// `added`: counters [ms] that are added to every frame of the candidates that have them, as what a scene
@@ -43,7 +46,7 @@ class FrameClock : public CandidateClock {
   frame::Frame& frame_;
   CandidateTiming timing_;
   std::vector<std::string> added_;
-  bool awake_ = false;
+  std::chrono::steady_clock::time_point lastBusy_{};  ///< when the GPU was last seen at work
 };
 
 }  // namespace limen::techniques

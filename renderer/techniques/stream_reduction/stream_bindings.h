@@ -10,6 +10,8 @@ namespace limen::techniques {
 
 const uint kStreamItemsBuffer = 0u;
 const uint kStreamCountBuffer = 1u;
+const uint kStreamCopyBuffer = 2u;  // what a copy writes
+const int kStreamCopyGroup = 256;
 const uint kStreamImage = 0u;
 // Second words of pairs differ from the first ones by these bits.
 const uint kPairBits = 0x5a5a5a5au;

@@ -48,13 +48,17 @@ glm::ivec2 streamSizePx(const frame::Frame& frame) {
   return {kStreamWidth, count / kStreamWidth + 1};
 }
 
+int64_t StreamTechnique::outputBytes(uint32_t items) const {
+  return compute::StreamReduction::bytesFor(items, settings_.payload);
+}
+
 void StreamTechnique::prepare(frame::Frame& frame) {
   static_assert(compute::kInvalidItem == scene::ItemStream::kInvalid);
   const scene::ItemStream& stream = *frame.scene().items;
   itemCount_ = static_cast<uint32_t>(stream.items.size());
   items_.emplace(withPayload(stream, settings_));
   if (settings_.flagged) flags_.emplace(flagsOf(stream));
-  output_.emplace(compute::StreamReduction::bytesFor(itemCount_, settings_.payload), nullptr);
+  output_.emplace(outputBytes(itemCount_), nullptr);
   counts_.emplace(kCountWords * 4, nullptr);
   counts_->clearUint(0);
   product_.emplace(gl::Format::R32F, streamSizePx(frame));

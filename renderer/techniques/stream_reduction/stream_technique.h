@@ -30,6 +30,8 @@ class StreamTechnique : public Technique {
  protected:
   /// Compiles and allocates what render() needs; returns the bytes that it holds.
   virtual int64_t prepareForm(frame::Frame& frame) = 0;
+  /// Room of output().
+  virtual int64_t outputBytes(uint32_t items) const;
   /// Word of counts() that holds the number of items in output().
   virtual uint32_t countAt() const = 0;
 

@@ -12,17 +12,23 @@ uniform uint patchCount;
 
 struct Point {
   vec3 position, normal;
+  vec2 texture_;  // TEXTURED only
 };
 
 Point exactPoint(uint number, ivec2 place) {
   const uvec2 source = sourceOf(number, place);
-  return Point(tablePosition(source.x, source.y), tableNormal(number, rowOfPlace(place)));
+  Point point = Point(tablePosition(source.x, source.y), tableNormal(number, rowOfPlace(place)), vec2(0.0));
+#ifdef TEXTURED
+  point.texture_ = tableTexture(number, rowOfPlace(place));
+#endif
+  return point;
 }
 
 Point between(Point a, Point b, Point at, float share) {
   precise vec3 position = 0.5 * (a.position + b.position);
   position = position + share * (at.position - position);
-  return Point(position, unitOr(mix(0.5 * (a.normal + b.normal), at.normal, share), at.normal));
+  return Point(position, unitOr(mix(0.5 * (a.normal + b.normal), at.normal, share), at.normal),
+               mix(0.5 * (a.texture_ + b.texture_), at.texture_, share));
 }
 
 // A place of the patch's sides.
@@ -77,6 +83,11 @@ void main() {
       point = innerPoint(number, place, level);
     const uint target = first + row;
     fineVertices[2u * target] = uvec4(floatBitsToUint(point.position), patches[number].material);
-    fineVertices[2u * target + 1u] = uvec4(floatBitsToUint(point.normal), kRungField);
+#ifdef TEXTURED
+    const uint last = packUnorm2x16(point.texture_);
+#else
+    const uint last = kRungField;
+#endif
+    fineVertices[2u * target + 1u] = uvec4(floatBitsToUint(point.normal), last);
   }
 }

@@ -6,6 +6,9 @@ uniform mat4 anchorToClip;
 out vec3 normal;
 out float distance_;
 flat out uint material;
+#ifdef TEXTURED
+out vec2 texturePlace;
+#endif
 
 void main() {
   const uint patchNumber = uint(gl_InstanceID), row = uint(gl_VertexID);
@@ -15,4 +18,7 @@ void main() {
   normal = tableNormal(patchNumber, row);
   distance_ = clip.w;
   material = patches[patchNumber].material;
+#ifdef TEXTURED
+  texturePlace = tableTexture(patchNumber, row);
+#endif
 }

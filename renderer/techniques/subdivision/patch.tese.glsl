@@ -13,11 +13,17 @@ uniform mat4 anchorToClip;
 out vec3 normal;
 out float distance_;
 flat out uint material;
+#ifdef TEXTURED
+out vec2 texturePlace;
+#endif
 
 void addPoint(ivec2 place, float weight, inout vec3 position, inout vec3 sum) {
   const uvec2 source = sourceOf(patchNumber, place);
   position += weight * tablePosition(source.x, source.y);
   sum += weight * tableNormal(patchNumber, rowOfPlace(place));
+#ifdef TEXTURED
+  texturePlace += weight * tableTexture(patchNumber, rowOfPlace(place));
+#endif
 }
 
 void main() {
@@ -30,10 +36,16 @@ void main() {
 #endif
   ivec2 place = ivec2(round(at));
   vec3 position = vec3(0.0), sum = vec3(0.0);
+#ifdef TEXTURED
+  texturePlace = vec2(0.0);
+#endif
   if (all(lessThan(abs(at - vec2(place)), vec2(1e-3)))) {
     const uvec2 source = sourceOf(patchNumber, place);
     position = tablePosition(source.x, source.y);
     sum = tableNormal(patchNumber, rowOfPlace(place));
+#ifdef TEXTURED
+    texturePlace = tableTexture(patchNumber, rowOfPlace(place));
+#endif
   } else {
     place = ivec2(floor(at));
     vec2 inside = at - vec2(place);

@@ -92,11 +92,17 @@ const uint kSubdivisionTablesBuffer = 2u;
 const uint kSubdivisionPlacesBuffer = 3u;  // rows' places (x in the lower 16 bits), then rows of places
 const uint kSubdivisionSourcesBuffer =
     3u;  // of a fine edge's or a corner's position and normal: see surfaces::TablePatch
-const uint kAttributeValuesBuffer = 5u;  // vec4
-const uint kFineAttributesBuffer = 4u;   // vec4 for each drawn vertex
+const uint kAttributeValuesBuffer = 5u;   // vec4
+const uint kFineAttributesBuffer = 4u;    // vec4 for each drawn vertex
 const uint kPackedAttributesBuffer = 7u;  // texture coordinates of each, 16 bits each
-const uint kFineVerticesBuffer = 4u;  // TessellatedVertex
+const uint kFineVerticesBuffer = 4u;      // TessellatedVertex
 const uint kFineIndicesBuffer = 5u;
+
+// Of forms that draw patches one by one, texture coordinates of each row of each patch: 16 bits each, row by
+// row of kPatchAttributesAcross texels. A texture, as levels of edges take all storage buffers that a stage
+// has.
+const uint kPatchAttributesUnit = 0u;
+const int kPatchAttributesAcross = 4096;
 
 // Levels of edges.
 struct AdaptiveTotals {  // std430; a RasterCount, then a DrawElementsIndirectCommand

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 
 #include "renderer/techniques/subdivision/table_records.h"
 #include "renderer/techniques/tessellation/tessellation_bindings.h"
@@ -103,6 +104,7 @@ gl::ShaderDefines TableEvaluator::defines() const {
   out["CORNERS"] = std::to_string(layout_.corners());
   out["TABLE_SEGMENTS"] = std::to_string(1 << layout_.tableLevel);
   if (settings_.normals == NormalStart::Geometry) out["GEOMETRY_NORMALS"] = "1";
+  if (patchAttributes_) out["TEXTURED"] = "1";
   return out;
 }
 
@@ -112,6 +114,7 @@ void TableEvaluator::bindTables(const gl::Program& program) const {
   tables_.bindStorage(kSubdivisionTablesBuffer);
   places_.bindStorage(kSubdivisionPlacesBuffer);
   controls_.bindStorage(kControlsBuffer);
+  if (patchAttributes_) patchAttributes_->bindTexture(kPatchAttributesUnit);
   program.use();
   const auto controls = static_cast<uint32_t>(layout_.controls.size());
   program.set("rows", layout_.rows());
@@ -170,6 +173,28 @@ void TableEvaluator::makeAttributes(gl::Context& context, const MeshRecords& rec
   program.set("edgeCount", layout_.fineEdges);
   program.set("level", layout_.tableLevel);
   dispatch(program, "vertexCount", vertexCount_);
+}
+
+void TableEvaluator::makePatchAttributes() {
+  constexpr size_t kAcross = kPatchAttributesAcross, kMostDown = 16384;
+  const size_t rows = layout_.rows(), down = (layout_.patches.size() * rows + kAcross - 1) / kAcross;
+  if (down > kMostDown)
+    throw Error("texture coordinates of all patches do not fit into a texture", "level",
+                "use a lower level, or form: compute and refinement: uniform");
+  std::vector<uint32_t> texels;
+  texels.reserve(kAcross * down);
+  for (const surfaces::TablePatch& patch : layout_.patches) {
+    const std::vector<double>& weights = layout_.tables[patch.attributeTable].weights;
+    for (size_t row = 0; row < rows; ++row) {
+      glm::dvec2 sum(0.0);
+      for (size_t s = 0; s < patch.attributeControls.size(); ++s)
+        sum += weights[s * rows + row] * glm::dvec2(layout_.attributeControls[patch.attributeControls[s]]);
+      texels.push_back(glm::packUnorm2x16(glm::vec2(sum)));
+    }
+  }
+  texels.resize(kAcross * down);
+  patchAttributes_.emplace(gl::Format::R32UI, glm::ivec2(kPatchAttributesAcross, static_cast<int>(down)));
+  patchAttributes_->writeUint(texels);
 }
 
 void TableEvaluator::dispatch(const gl::Program& program, const char* count, uint32_t of) const {
@@ -259,7 +284,8 @@ void TableEvaluator::runMain(frame::Frame& frame) const {
 }
 
 int64_t TableEvaluator::bytes() const {
-  return patches_.bytes() + points_.bytes() + tables_.bytes() + places_.bytes();
+  return patches_.bytes() + points_.bytes() + tables_.bytes() + places_.bytes() +
+         (patchAttributes_ ? patchAttributes_->bytes() : 0);
 }
 
 void TableEvaluator::stateBytes(frame::Frame& frame) const {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "renderer/frame/frame.h"
+#include "renderer/gl/texture.h"
 #include "renderer/surfaces/table_layout.h"
 
 namespace limen::techniques {
@@ -57,6 +58,9 @@ class TableEvaluator {
   const gl::Buffer& controls() const { return controls_; }  ///< ControlVertex
   /// Makes vertices() and indices(), which forms that draw patches do not need.
   void allocateMesh(gl::Context& context);
+  /// Texture coordinates for forms that draw patches one by one, which do not need vertices(). Before
+  /// defines() is asked. Throws Error if a texture cannot hold them.
+  void makePatchAttributes();
   /// For programs that include tables.glsl.
   void bindTables(const gl::Program& program) const;
   gl::ShaderDefines defines() const;
@@ -75,6 +79,7 @@ class TableEvaluator {
   gl::Buffer rest_, joints_, positions_, entries_, terms_, fans_, controls_;
   std::optional<gl::Buffer> cageNormals_, cageEntries_, cageFans_;
   gl::Buffer patches_, points_, tables_, places_;
+  std::optional<gl::Texture> patchAttributes_;
   std::optional<gl::Buffer> vertices_, indices_, meshPatches_, meshWeights_, meshSources_, attributes_,
       packedAttributes_;
   const gl::Program &animate_, &controlsProgram_;

@@ -10,6 +10,7 @@
 // - In compute, neighbouring patches share vertices; triangles are listed once.
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "renderer/frame/frame_bindings.h"
@@ -23,6 +24,9 @@
 
 namespace limen::techniques {
 namespace {
+
+/// llvmpipe draws wrong triangles beyond as many tessellation vertices a draw.
+constexpr int kStageVerticesPerSoftwareDraw = 65536;
 
 enum class MainStep { Compute, Instanced, Stages };
 constexpr EnumNames<MainStep, 3> enumNames(MainStep) {
@@ -107,8 +111,7 @@ class SubdivisionTables : public Technique {
     if (surfaces::stepsUntilSmooth(surface.cage) > 4)
       throw Error("an edge is semi-sharp for more than 4 steps", "scene",
                   "use a lower sharpness, or 10: sharp for ever");
-    if (textured && (!compute || settings_.adaptive()))
-      throw Error("the surface has texture coordinates", "form", "use form: compute and refinement: uniform");
+    if (textured && (!compute || settings_.adaptive())) evaluator_->makePatchAttributes();
     lists_ = compute && frame::chosenRaster(settings_.raster, frame.context()) == frame::Raster::Compute;
     picture_.emplace(frame, settings_.shading, "subdivision",
                      lists_ ? frame::Raster::Compute : frame::Raster::Hardware, textured);
@@ -235,7 +238,12 @@ class SubdivisionTables : public Technique {
     if (settings_.form == MainStep::Stages) {
       drawProgram_->set("segments", evaluator_->segments());
       glPatchParameteri(GL_PATCH_VERTICES, 1);
-      glDrawArrays(GL_PATCHES, 0, patches);
+      const int each = (evaluator_->segments() + 1) * (evaluator_->segments() + 1);
+      const GLsizei most = frame.context().device().software
+                               ? std::max(kStageVerticesPerSoftwareDraw / each, 1)
+                               : std::max(patches, 1);
+      for (GLsizei first = 0; first < patches; first += most)
+        glDrawArrays(GL_PATCHES, first, std::min(most, patches - first));
       return;
     }
     glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(pattern_->bytes() / 4), GL_UNSIGNED_INT,
@@ -255,7 +263,7 @@ class SubdivisionTables : public Technique {
 
 const RegisteredTechnique<SubdivisionTables> kSubdivisionTablesRegistered{
     {.name = "subdivision/tables",
-     .version = 2,
+     .version = 3,
      .summary =
          "Limit points of subdivision surfaces from tables of basis functions, the control mesh moving",
      .source = "Holländer 2013, chapter 2 (HOL-02 to HOL-08)",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums of control vertices by rows of tables (Holländer 2013, equation 2.1). Needs CORNERS and TABLE_SEGMENTS.
+// TEXTURED: patches have texture coordinates.
 #include "renderer/techniques/subdivision/subdivision_bindings.h"
 
 layout(std430, binding = kSubdivisionPatchesBuffer) readonly buffer Patches { SubdivisionPatch patches[]; };
@@ -24,6 +25,16 @@ vec3 tablePosition(uint patchNumber, uint row) {
     sum = fma(vec3(tables[record.firstWeight + s * rows + row]), controls[2u * points[record.firstPoint + s]].xyz, sum);
   return sum;
 }
+
+#ifdef TEXTURED
+layout(binding = kPatchAttributesUnit) uniform usampler2D patchAttributes;
+
+// Each patch has its own, so that seams divide them.
+vec2 tableTexture(uint patchNumber, uint row) {
+  const uint at = patchNumber * rows + row, across = uint(kPatchAttributesAcross);
+  return unpackUnorm2x16(texelFetch(patchAttributes, ivec2(at % across, at / across), 0).x);
+}
+#endif
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float size = max(abs(v.x), max(abs(v.y), abs(v.z)));

@@ -13,7 +13,24 @@ const uint kFieldPositionUnit = 0u;
 const uint kFieldNormalUnit = 1u;
 const uint kFieldIdsUnit = 2u;
 const uint kFieldReceiversUnit = 3u;
+const uint kFieldUnfilteredUnit = 4u;
 const uint kFieldOutImage = 1u;
+
+// Reflections: rays of a pixel are layers.
+const uint kLobeOriginsUnit = 0u;
+const uint kLobeMirroredUnit = 1u;
+const uint kLobeIdsUnit = 2u;
+const uint kLobeDirectionsUnit = 3u;  // sampler2DArray
+const uint kLobeHitsUnit = 4u;        // usampler2DArray
+const uint kLobeNormalsUnit = 5u;
+const uint kLobeOriginsImage = 1u;
+const uint kLobeMirroredImage = 2u;
+const uint kLobeNormalsImage = 3u;
+const uint kLobeDirectionsImage = 4u;
+const uint kLobeHitsImage = 5u;
+const uint kLobeReflectedImage = 6u;
+
+const uint kVertexValuesBuffer = 2u;  // float a vertex of the scene, techniques of vertices
 
 const uint kFieldCountsBuffer = 5u;  // kFieldCountSlots numbers of look-ups
 const int kFieldCountSlots = 64;

@@ -9,7 +9,9 @@
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+#include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_bindings.h"
+#include "renderer/visibility_fields/sphere_cover.h"
 
 namespace limen::techniques {
 namespace vf = visibility_fields;
@@ -17,25 +19,37 @@ namespace {
 
 constexpr int64_t kMostSoftwareSteps = 60000;
 
-vf::RigidObjects objectsOf(const frame::Frame& frame, vf::ObjectForm form) {
-  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), form);
-  if (objects.objects.size() > kMostFieldObjects)
-    throw Error("the scene has " + std::to_string(objects.objects.size()) + " objects; at most " +
-                    std::to_string(kMostFieldObjects) + " can have visibility fields",
-                "objects", "use 'parts', or a smaller scene");
-  return objects;
+void checkCount(const std::vector<vf::RigidObject>& objects, const char* mend) {
+  if (objects.size() > vf::kMostFieldObjects)
+    throw Error("the scene has " + std::to_string(objects.size()) +
+                    " objects or pieces of objects; at most " + std::to_string(vf::kMostFieldObjects) +
+                    " can have visibility fields",
+                "objects", mend);
 }
 
-/// Numbered as in the scene, without those of no object.
-ray_tracing::RayScene objectRays(frame::Frame& frame, const vf::RigidObjects& objects) {
-  const scene::Mesh& mesh = frame.scene().mesh;
+std::vector<vf::RigidObject> covered(const std::vector<vf::RigidObject>& objects, int spheres) {
+  std::vector<vf::RigidObject> out;
+  for (const vf::RigidObject& object : objects)
+    for (vf::RigidObject& piece : vf::coverWithSpheres(object, spheres)) out.push_back(std::move(piece));
+  checkCount(out, "use fewer 'spheres', or a smaller scene");
+  return out;
+}
+
+struct ObjectTriangles {
   std::vector<glm::vec3> vertices;
-  for (const glm::dvec3 p : mesh.positions) vertices.emplace_back(p - frame.gpuScene().anchor());
-  std::vector<glm::uvec3> triangles = mesh.triangles;
+  std::vector<glm::uvec3> triangles;
+};
+
+/// Numbered as in the scene, without those of no object, or without those of any.
+ObjectTriangles objectTriangles(const frame::Frame& frame, const vf::RigidObjects& objects,
+                                bool ofObjects = true) {
+  const scene::Mesh& mesh = frame.scene().mesh;
+  ObjectTriangles out{{}, mesh.triangles};
+  for (const glm::dvec3 p : mesh.positions) out.vertices.emplace_back(p - frame.gpuScene().anchor());
   // Without area: left out of the tree, but counted.
-  for (size_t i = 0; i < triangles.size(); ++i)
-    if (objects.objectOf[i] == vf::kFieldNoObject) triangles[i] = glm::uvec3(0);
-  return {frame.context(), vertices, triangles};
+  for (size_t i = 0; i < out.triangles.size(); ++i)
+    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) out.triangles[i] = glm::uvec3(0);
+  return out;
 }
 
 const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel channel) {
@@ -44,15 +58,30 @@ const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel chann
 
 }  // namespace
 
+vf::RigidObjects objectsOf(const frame::Frame& frame, const vf::ObjectSetting& setting) {
+  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), setting);
+  checkCount(objects.objects, "use 'auto' or 'parts', or a smaller scene");
+  return objects;
+}
+
 const SettingsTable<ReceiverRays>& ReceiverRays::table() {
   using S = ReceiverRays;
   static const SettingsTable<S> kTable = {
       {&S::rays, "rays", {1, 1024}, "rays", "Rays per pixel, a square number", "Gaitatzes 2012, section 4.7"},
       {&S::turned, "turned", "Choose other rays for each pixel, at random", "bench"},
       {&S::seed, "seed", {0, 1000000}, "", "Seed of that choice"},
+      {&S::interleave,
+       "interleave",
+       {1, 8},
+       "px",
+       "Side of the tiles of pixels that share a grid of rays that is finer by as much: each has other rays "
+       "of it, one in "
+       "every cell of its own",
+       "Keller and Heidrich 2001 (bench)"},
+      {&S::filter, "filter", "What is made of interleaved pixels", "bench"},
       {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
        "Gaitatzes 2012, section 4.4.2"},
-      {&S::objects, "objects", "What of the scene is one rigid object"}};
+      objectsBinding(&S::objects)};
   return kTable;
 }
 
@@ -62,6 +91,10 @@ void ReceiverRays::check() const {
   if (int64_t{side()} * side() != rays)
     throw Error("'rays' is " + std::to_string(rays) + ", not a square number", "rays",
                 "give " + std::to_string(side() * side()));
+  if (turned && interleave > 1)
+    throw Error("rays are either 'turned' at random or interleaved", "interleave", "leave out one of them");
+  if (interleave == 1 && !std::holds_alternative<NoFilter>(filter))
+    throw Error("'filter' is for interleaved pixels", "filter", "give interleave: 4");
 }
 
 void ReceiverRays::makeInputs(frame::Frame& frame) {
@@ -78,14 +111,41 @@ void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) co
   program.set("raySide", side());
   program.set("turned", turned ? 1 : 0);
   program.set("seed", static_cast<uint32_t>(seed));
+  program.set("interleave", interleave);
   program.set("selfOcclusion", selfOcclusion ? 1 : 0);
   program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
 }
 
-const SettingsTable<FieldReading>& FieldReading::table() {
-  using S = FieldReading;
+const SettingsTable<NoFilter>& NoFilter::table() {
+  static const SettingsTable<NoFilter> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<BilateralFilter>& BilateralFilter::table() {
+  static const SettingsTable<BilateralFilter> kTable = {
+      {&BilateralFilter::angleDeg,
+       "angle_deg",
+       {0.1, 90.0},
+       "deg",
+       "Angle between normals, or between a surface and the way to another pixel's point, at which that "
+       "counts no more"}};
+  return kTable;
+}
+
+const SettingsTable<TreeTracer>& TreeTracer::table() {
+  static const SettingsTable<TreeTracer> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<GridTracer>& GridTracer::table() {
+  static const SettingsTable<GridTracer> kTable = {
+      {&GridTracer::density, "density", {0.01, 64.0}, "", "Cells per triangle", "Cleary and Wyvill 1988"}};
+  return kTable;
+}
+
+const SettingsTable<FieldUse>& FieldUse::table() {
+  using S = FieldUse;
   static const SettingsTable<S> kTable = {
-      included(&S::form),
       {&S::slack,
        "slack",
        {0.0, 20.0},
@@ -94,6 +154,24 @@ const SettingsTable<FieldReading>& FieldReading::table() {
        "before the origin so that it is not the "
        "surface that the ray starts on, in spacings of the field's rays",
        "Gaitatzes 2012, section 4.4.2 (without a value)"},
+      {&S::spheres,
+       "spheres",
+       {1, 64},
+       "",
+       "Spheres with a field each that cover an object which is long or "
+       "hollow, at most; 1: one for every object",
+       "Gaitatzes 2012, section 4.8 (suggested)"},
+      {&S::folder, "folder",
+       "Folder in which fields are kept by their content, so that the next run reads "
+       "them: its preparation time is that of reading; none: made each time"}};
+  return kTable;
+}
+
+const SettingsTable<FieldReading>& FieldReading::table() {
+  using S = FieldReading;
+  static const SettingsTable<S> kTable = {
+      included(&S::form),
+      included(&S::use),
       {&S::tolerance,
        "tolerance",
        {0, 64},
@@ -109,28 +187,27 @@ void FieldReading::check() const {
                 "leave out 'tolerance', or give bits: 8");
 }
 
-void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays) {
-  const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  const int64_t steps = rays.rays * static_cast<int64_t>(objects.objects.size() + 2);
+void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth) {
+  const vf::RigidObjects whole = objectsOf(frame, rays.objects);
+  std::vector<vf::RigidObject> objects = covered(whole.objects, settings_.use.spheres);
+  if (!smooth)
+    for (vf::RigidObject& object : objects) object.normals.clear();
+  const int64_t steps = rays.rays * static_cast<int64_t>(objects.size() + 2);
   if (frame.context().device().software && steps > kMostSoftwareSteps)
-    throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.objects.size()) +
+    throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  fields_.emplace(frame.context(), objects.objects, settings_.form, settings_.tolerance);
-  objectOf_.emplace(objects.objectOf);
+  fields_.emplace(frame.context(), objects, settings_.form, settings_.tolerance, settings_.use.folder);
+  objectOf_.emplace(whole.objectOf);
   std::vector<vf::Pose> poses;
-  for (const vf::RigidObject& object : objects.objects) poses.push_back(vf::VisibilityFields::poseOf(object));
+  for (const vf::RigidObject& object : objects) poses.push_back(vf::VisibilityFields::poseOf(object));
   fields_->place(poses, frame.gpuScene().anchor());
 }
 
 void FieldReader::bind(const gl::Program& program) const {
   fields_->bind(program);
   objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
-  // In radii: neighbouring positions are sqrt(4 pi / positions) apart on average, and rays of neighbouring
-  // directions, whose discs have the area pi together, sqrt(pi) / directions at the distance of a radius.
-  const double spacing = std::sqrt(4.0 * M_PI / double(fields_->positionMap().points().size())) +
-                         std::sqrt(M_PI) / settings_.form.directions;
-  program.set("slack", static_cast<float>(0.5 * settings_.slack * spacing));
+  program.set("slack", static_cast<float>(0.5 * settings_.use.slack * vf::fieldSpacing(settings_.form)));
 }
 
 gl::Buffer FieldReader::emptyCounts() {
@@ -150,6 +227,12 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
           {"field_objects", double(fields_->objectCount())}};
 }
 
+std::vector<std::string> FieldReader::remarks() const {
+  if (!fields_ || fields_->fieldsRead() == 0) return {};
+  return {std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
+          " fields were read from '" + settings_.use.folder + "' and not made: preparation took less time"};
+}
+
 std::vector<Quantity> FieldReader::quantities() {
   return {{"field_lookups_per_px", "Look-ups in fields, per pixel", "1/px", Direction::LowerIsBetter,
            "Gaitatzes 2012, section 4.7.1"},
@@ -161,10 +244,26 @@ std::vector<Quantity> FieldReader::quantities() {
           {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"}};
 }
 
-void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays) {
+ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
+  const ObjectTriangles others = objectTriangles(frame, objectsOf(frame, rays.objects), false);
+  return {frame.context(), others.vertices, others.triangles};
+}
+
+void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer) {
   const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  rays_.emplace(objectRays(frame, objects));
+  const ObjectTriangles all = objectTriangles(frame, objects);
+  if (const auto* grid = std::get_if<GridTracer>(&tracer))
+    rays_ = std::make_unique<ray_tracing::TriangleGrid>(frame.context(), all.vertices, all.triangles,
+                                                        grid->density);
+  else
+    rays_ = std::make_unique<ray_tracing::RayScene>(frame.context(), all.vertices, all.triangles);
   objectOf_.emplace(objects.objectOf);
+}
+
+gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {
+  gl::ShaderDefines defines;
+  if (std::holds_alternative<GridTracer>(tracer)) defines["RAY_GRID"] = "1";
+  return defines;
 }
 
 void ObjectTracer::bind(const gl::Program& program) const {

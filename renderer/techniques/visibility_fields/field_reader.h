@@ -1,21 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/ray_tracing/triangle_grid.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/visibility_fields/visibility_fields.h"
 
 namespace limen::techniques {
 
-/// Most objects of a scene that have fields.
-inline constexpr size_t kMostFieldObjects = 256;
+template <class S>
+Binding<S> objectsBinding(visibility_fields::ObjectSetting S::*member) {
+  return {member, "objects", "What of the scene is one rigid object", "bench (auto)"};
+}
+
+/// What is made of the pixels of a tile that have different rays.
+struct NoFilter {
+  static constexpr const char *kKind = "none", *kSummary = "each pixel has the mean of its own rays";
+  static const SettingsTable<NoFilter>& table();
+};
+struct BilateralFilter {
+  static constexpr const char
+      *kKind = "bilateral",
+      *kSummary =
+          "means over a window as wide as a tile of interleaved pixels, of pixels on the "
+          "same surface";
+  double angleDeg = 20.0;
+  static const SettingsTable<BilateralFilter>& table();
+};
+using FilterSetting = std::variant<NoFilter, BilateralFilter>;
 
 /// Rays a pixel, its receiver and the objects that may block them: the same for a field and for the tracer
 /// that it is compared with.
@@ -23,10 +44,12 @@ struct ReceiverRays {
   int64_t rays = 64;
   bool turned = false;
   int64_t seed = 1;
+  int interleave = 1;
+  FilterSetting filter;
   bool selfOcclusion = true;
-  visibility_fields::ObjectForm objects = visibility_fields::ObjectForm::Parts;
+  visibility_fields::ObjectSetting objects;
   static const SettingsTable<ReceiverRays>& table();
-  /// Throws Error unless `rays` is a square number.
+  /// Throws Error unless `rays` is a square number and pixels are interleaved where they are filtered.
   void check() const;
 
   int side() const;
@@ -36,10 +59,18 @@ struct ReceiverRays {
   void configure(const gl::Program& program, frame::Frame& frame) const;
 };
 
+/// How fields are placed around objects and read.
+struct FieldUse {
+  double slack = 1.0;
+  int spheres = 1;
+  std::string folder;
+  static const SettingsTable<FieldUse>& table();
+};
+
 /// How fields are made and read.
 struct FieldReading {
   visibility_fields::FieldForm form;
-  double slack = 1.0;
+  FieldUse use;
   int tolerance = 0;
   static const SettingsTable<FieldReading>& table();
   /// Throws Error if there is a tolerance for codes of other than 8 bits.
@@ -51,7 +82,8 @@ class FieldReader {
  public:
   explicit FieldReader(const FieldReading& settings) : settings_(settings) {}
   /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
-  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  /// `smooth`: fields with normals have those of vertices.
+  void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true);
   gl::ShaderDefines defines() const { return settings_.form.defines(); }
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
@@ -65,6 +97,7 @@ class FieldReader {
     return countersOf(counts, frame);
   }
   static std::vector<Quantity> quantities();
+  std::vector<std::string> remarks() const;
 
  private:
   static gl::Buffer emptyCounts();
@@ -75,10 +108,28 @@ class FieldReader {
   std::optional<gl::Buffer> objectOf_;
 };
 
+/// How rays find triangles.
+struct TreeTracer {
+  static constexpr const char *kKind = "tree", *kSummary = "through a wide hierarchy of bounding boxes";
+  static const SettingsTable<TreeTracer>& table();
+};
+struct GridTracer {
+  static constexpr const char *kKind = "grid", *kSummary = "through the cells of a uniform grid";
+  double density = 4.0;
+  static const SettingsTable<GridTracer>& table();
+};
+using TracerSetting = std::variant<TreeTracer, GridTracer>;
+template <class S>
+Binding<S> tracerBinding(TracerSetting S::*member) {
+  return {member, "tracer", "How rays find triangles",
+          "Gaitatzes 2012, sections 4.7.1 (grid) and 4.7.2 (tree)"};
+}
+
 /// The objects' triangles for shaders that include object_trace.glsl.
 class ObjectTracer {
  public:
-  void prepare(frame::Frame& frame, const ReceiverRays& rays);
+  void prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer);
+  static gl::ShaderDefines defines(const TracerSetting& tracer);
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return rays_->bytes() + objectOf_->bytes(); }
   /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
@@ -86,8 +137,15 @@ class ObjectTracer {
   static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);
 
  private:
-  std::optional<ray_tracing::RayScene> rays_;
+  std::unique_ptr<ray_tracing::RayTree> rays_;
   std::optional<gl::Buffer> objectOf_;
 };
+
+/// The scene's objects. Throws Error if there are too many.
+visibility_fields::RigidObjects objectsOf(const frame::Frame& frame,
+                                          const visibility_fields::ObjectSetting& setting);
+
+/// The triangles that belong to no object, numbered as in the scene.
+ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays);
 
 }  // namespace limen::techniques

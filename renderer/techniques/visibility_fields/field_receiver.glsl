@@ -11,7 +11,7 @@ layout(binding = kFieldNormalUnit) uniform sampler2D normals;
 layout(binding = kFieldIdsUnit) uniform usampler2D triangleIds;
 layout(std430, binding = kFieldObjectOfBuffer) readonly buffer ObjectOf { uint objectOf[]; };
 uniform ivec2 sizePx;
-uniform int selfOcclusion;
+uniform int selfOcclusion, interleave;
 uniform vec3 eyePosition;  // relative to the anchor
 
 struct FieldReceiver {
@@ -34,4 +34,10 @@ bool fieldReceiver(ivec2 pixel, out FieldReceiver receiver) {
 // In [0, 1), from the pixel's number.
 vec2 pixelPlace(ivec2 pixel, uint number, uint seed) {
   return randomPlace(uvec3(uint(pixel.y * sizePx.x + pixel.x), number, seed));
+}
+
+// In a cell of a pixel's rays: the middle, or the middle of one of interleave x interleave parts of it, another for each pixel of a tile.
+vec2 placeInCell(ivec2 pixel) {
+  const ivec2 part = ivec2(pixel.x + 2 * pixel.y, pixel.y) % interleave;
+  return (vec2(part) + 0.5) / float(interleave);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two techniques over the same rays: looked up in fields, or traced. What differs is in their settings:
-// `rays` (with a member `receiver`, makeInputs() and configure()), the shader, the pass and the product's
-// format.
+// `rays` (with a member `receiver`, makeInputs() and configure()), `field` or `tracer`, the shader, the pass
+// and the product's format.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -12,6 +12,7 @@
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
+#include "renderer/techniques/visibility_fields/tile_filter.h"
 
 namespace limen::techniques {
 
@@ -20,7 +21,8 @@ template <class S>
 class FieldTechnique : public Technique {
  public:
   using Settings = S;
-  explicit FieldTechnique(const S& settings) : settings_(settings), reader_(settings.field) {}
+  explicit FieldTechnique(const S& settings)
+      : settings_(settings), reader_(settings.field), filter_(settings.rays.receiver, S::kPass, S::kFormat) {}
 
   void prepare(frame::Frame& frame) override {
     reader_.prepare(frame, settings_.rays.receiver);
@@ -30,13 +32,18 @@ class FieldTechnique : public Technique {
     defines["COUNT"] = "1";
     counting_ = &frame.context().programs().compute(S::kShader, defines);
     picture_.emplace(S::kFormat, frame.sizePx());
+    filter_.prepare(frame);
     frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld());
   }
-  void render(frame::Frame& frame) override { run(frame, *program_, nullptr); }
-  const gl::Texture& product() const override { return *picture_; }
+  void render(frame::Frame& frame) override {
+    run(frame, *program_, nullptr);
+    filter_.run(frame, *picture_);
+  }
+  const gl::Texture& product() const override { return filter_.product(*picture_); }
   std::vector<Counter> count(frame::Frame& frame) override {
     return reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
   }
+  std::vector<std::string> remarks() const override { return reader_.remarks(); }
 
  private:
   void run(frame::Frame& frame, const gl::Program& program, const gl::Buffer* counts) {
@@ -52,6 +59,7 @@ class FieldTechnique : public Technique {
 
   S settings_;
   FieldReader reader_;
+  TileFilter filter_;
   std::optional<gl::Texture> picture_;
   const gl::Program *program_ = nullptr, *counting_ = nullptr;
 };
@@ -60,27 +68,33 @@ template <class S>
 class TracedTechnique : public Technique {
  public:
   using Settings = S;
-  explicit TracedTechnique(const S& settings) : settings_(settings) {}
+  explicit TracedTechnique(const S& settings)
+      : settings_(settings), filter_(settings.rays.receiver, S::kPass, S::kFormat) {}
 
   void prepare(frame::Frame& frame) override {
-    tracer_.prepare(frame, settings_.rays.receiver);
-    program_ = &frame.context().programs().compute(S::kShader);
+    tracer_.prepare(frame, settings_.rays.receiver, settings_.tracer);
+    program_ = &frame.context().programs().compute(S::kShader, ObjectTracer::defines(settings_.tracer));
     picture_.emplace(S::kFormat, frame.sizePx());
+    filter_.prepare(frame);
     frame.passes().setBytesHeld(S::kPass, picture_->bytes() + tracer_.bytesHeld());
   }
   void render(frame::Frame& frame) override {
     settings_.rays.makeInputs(frame);
-    const auto scope = frame.passes().open(S::kPass);
-    tracer_.bind(*program_);
-    settings_.rays.configure(*program_, frame);
-    picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
-    ObjectTracer::dispatchRows(*program_, frame, settings_.rays.receiver.side());
+    {
+      const auto scope = frame.passes().open(S::kPass);
+      tracer_.bind(*program_);
+      settings_.rays.configure(*program_, frame);
+      picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
+      ObjectTracer::dispatchRows(*program_, frame, settings_.rays.receiver.side());
+    }
+    filter_.run(frame, *picture_);
   }
-  const gl::Texture& product() const override { return *picture_; }
+  const gl::Texture& product() const override { return filter_.product(*picture_); }
 
  private:
   S settings_;
   ObjectTracer tracer_;
+  TileFilter filter_;
   std::optional<gl::Texture> picture_;
   const gl::Program* program_ = nullptr;
 };

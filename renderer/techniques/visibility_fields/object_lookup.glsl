@@ -2,15 +2,13 @@
 // A receiver's rays against all objects by their fields, and the count of look-ups. Set up by FieldReader::bind().
 #include "renderer/visibility_fields/field_lookup.glsl"
 
-#ifdef COUNT
-layout(std430, binding = kFieldCountsBuffer) buffer Counts { uint counts[]; };
-#endif
+#include "renderer/techniques/visibility_fields/field_counts.glsl"
 uniform float slack;  // diameters
 
 bool canBlock(FieldReceiver receiver, uint object) {
-  if (selfOcclusion == 0 && object == receiver.object) return false;
-  // No ray of the receiver's half space meets a sphere behind it.
   const FieldObject of = fieldObjects[object];
+  if (selfOcclusion == 0 && of.owner == receiver.object) return false;
+  // No ray of the receiver's half space meets a sphere behind it.
   return dot(of.centre - receiver.origin, receiver.normal) > -of.radius;
 }
 
@@ -23,10 +21,4 @@ float nearestDistance(FieldReceiver receiver, vec3 direction) {
     if (distance >= 0.0 && (nearest < 0.0 || distance < nearest)) nearest = distance;
   }
   return nearest;
-}
-
-void countLookUps(ivec2 pixel) {
-#ifdef COUNT
-  atomicAdd(counts[(pixel.y * sizePx.x + pixel.x) % kFieldCountSlots], fieldLookUps);
-#endif
 }

@@ -10,16 +10,17 @@ uniform float falloffRadius;
 // Axes across the receiver's normal, turned from pixel to pixel if so chosen.
 struct OcclusionFrame {
   vec3 x, y, z;
+  vec2 within;  // a cell of the rays
 };
 OcclusionFrame occlusionFrame(ivec2 pixel, FieldReceiver receiver) {
   const vec3 x = fieldTangent(receiver.normal), y = fieldBitangent(receiver.normal);
   const float angle = turned == 0 ? 0.0 : 2.0 * kFieldPi * pixelPlace(pixel, 0u, seed).x;
-  return OcclusionFrame(cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x, receiver.normal);
+  return OcclusionFrame(cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x, receiver.normal, placeInCell(pixel));
 }
 
 // Spread by the cosine.
 vec3 occlusionDirection(OcclusionFrame frame, ivec2 cell) {
-  const vec3 local = fieldDirection((vec2(cell) + 0.5) / float(raySide), kFieldConcentric);
+  const vec3 local = fieldDirection((vec2(cell) + frame.within) / float(raySide), kFieldConcentric);
   return normalize(local.x * frame.x + local.y * frame.y + local.z * frame.z);
 }
 

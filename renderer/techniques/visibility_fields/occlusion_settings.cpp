@@ -11,17 +11,8 @@ static_assert(static_cast<int>(Falloff::Binary) == kFalloffBinary &&
 
 const SettingsTable<OcclusionRays>& OcclusionRays::table() {
   using S = OcclusionRays;
-  static const SettingsTable<S> kTable = {
-      included(&S::receiver),
-      {&S::falloff, "falloff",
-       "Visibility by distance: 0 within the radius; rising to 1 at the radius; 1 - exp(-distance / radius)",
-       "Gaitatzes 2012, equation 3 (form not given there)"},
-      {&S::radius,
-       "radius",
-       {0.0001, 10.0},
-       "",
-       "Distance of the falloff, as a share of the scene's diagonal",
-       "Gaitatzes 2012, equation 3 (value not given there)"}};
+  static const SettingsTable<S> kTable = {included(&S::receiver), falloffBinding(&S::falloff),
+                                          falloffRadiusBinding(&S::radius)};
   return kTable;
 }
 

@@ -13,6 +13,23 @@ constexpr EnumNames<Falloff, 3> enumNames(Falloff) {
       {{{Falloff::Binary, "binary"}, {Falloff::Linear, "linear"}, {Falloff::Exponential, "exponential"}}}};
 }
 
+template <class S>
+Binding<S> falloffBinding(Falloff S::*member) {
+  return {
+      member, "falloff",
+      "Visibility by distance: 0 within the radius; rising to 1 at the radius; 1 - exp(-distance / radius)",
+      "Gaitatzes 2012, equation 3 (form not given there)"};
+}
+template <class S>
+Binding<S> falloffRadiusBinding(double S::*member) {
+  return {member,
+          "radius",
+          {0.0001, 10.0},
+          "",
+          "Distance of the falloff, as a share of the scene's diagonal",
+          "Gaitatzes 2012, equation 3 (value not given there)"};
+}
+
 /// Rays over the half space of a receiver, by the cosine, and what their distances mean.
 struct OcclusionRays {
   ReceiverRays receiver;

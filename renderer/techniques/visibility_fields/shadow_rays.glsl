@@ -10,9 +10,9 @@ uniform float lightRadius;                 // of a sphere
 
 bool isLit(ivec2 pixel) { return texelFetch(receivers, pixel, 0).w >= 0.0; }
 
-// Of the light: in cell `cell`, at its middle or, turned, anywhere.
+// Of the light: in cell `cell`, at its middle or the pixel's place in it or, turned, anywhere.
 vec3 lightPoint(ivec2 pixel, FieldReceiver receiver, ivec2 cell) {
-  const vec2 within = turned == 0 ? vec2(0.5) : pixelPlace(pixel, uint(cell.y * raySide + cell.x), seed);
+  const vec2 within = turned == 0 ? placeInCell(pixel) : pixelPlace(pixel, uint(cell.y * raySide + cell.x), seed);
   const vec2 place = (vec2(cell) + within) / float(raySide);
   if (lightForm == kLightRectangle) {
     const vec2 p = 2.0 * place - 1.0;

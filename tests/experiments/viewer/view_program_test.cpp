@@ -126,12 +126,12 @@ TEST_F(ViewProgram, BadInputIsOneLineAndOpensNothing) {
 class ViewWindow : public ViewProgram {
  protected:
   ViewWindow() : server_(1000, 800) {
+    // Made before: another thread may hold the allocator's lock while the process is copied.
+    const std::string line = "unset WAYLAND_DISPLAY; DISPLAY=" + server_.display() +
+                             " exec " LIMEN_BIN_DIR "/limen-view " + kSmall + " --results " +
+                             path("exported") + " >" + path("out.txt") + " 2>&1";
     process_ = fork();
     if (process_ == 0) {
-      setenv("DISPLAY", server_.display().c_str(), 1);
-      unsetenv("WAYLAND_DISPLAY");
-      const std::string line = std::string("exec " LIMEN_BIN_DIR "/limen-view ") + kSmall + " --results " +
-                               path("exported") + " >" + path("out.txt") + " 2>&1";
       execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       _exit(127);
     }

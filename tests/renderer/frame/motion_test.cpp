@@ -59,10 +59,38 @@ scene::Scene movingBoxes(double scale, double offset) {
   return scene;
 }
 
+/// One of the boxes turns by 20 degrees and travels by some of the size of the scene in a tenth of a second.
+scene::Scene boxThatMoves(scene::Scene scene) {
+  scene::PartMotion motion;
+  motion.part = static_cast<uint32_t>(scene.parts.size() - 1);
+  motion.pivot = scene.mesh.positions[scene.mesh.triangles[scene.parts.back().firstTriangle].x];
+  motion.axis = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
+  motion.turnDegS = 200.0;
+  motion.travel = 0.05 * scene.bounds().diagonal() * glm::dvec3(0.5, 0.3, -0.6);
+  motion.startS = -0.5;
+  scene.motions = {motion};
+  return scene;
+}
+
+/// Motion of each triangle; null: it rests.
+const scene::PartMotion* motionOf(const scene::Scene& scene, uint32_t triangle) {
+  for (const scene::PartMotion& motion : scene.motions) {
+    const scene::Part& part = scene.parts[motion.part];
+    if (triangle >= part.firstTriangle && triangle < part.firstTriangle + part.triangleCount) return &motion;
+  }
+  return nullptr;
+}
+
 TEST_F(MotionTest, IsTheReprojectionOfEachPixelsPoint) {
-  for (const auto& [scale, offset] :
-       std::vector<std::pair<double, double>>{{1.0, 0.0}, {1e-4, 0.0}, {1.0, 1e5}}) {
-    const scene::Scene scene = movingBoxes(scale, offset);
+  struct Case {
+    double scale, offset;
+    bool partMoves;
+  };
+  for (const auto& [scale, offset, partMoves] : std::vector<Case>{
+           {1.0, 0.0, false}, {1e-4, 0.0, false}, {1.0, 1e5, false}, {1.0, 0.0, true}, {1.0, 1e5, true}}) {
+    scene::Scene scene = movingBoxes(scale, offset);
+    if (partMoves) scene = boxThatMoves(scene);
+    int moving = 0;
     const Made made = render(scene, 0.6, 0.1);
     const scene::Camera now = scene.camera.at(0.6), then = scene.camera.at(0.5);
     const glm::dvec3 forward = glm::normalize(now.target - now.eye),
@@ -76,7 +104,13 @@ TEST_F(MotionTest, IsTheReprojectionOfEachPixelsPoint) {
         const double nx = (2.0 * (x + 0.5) / kMotionSize.x - 1.0) * tangent * kMotionSize.x / kMotionSize.y,
                      ny = (1.0 - 2.0 * (y + 0.5) / kMotionSize.y) * tangent;
         const glm::dvec3 point = now.eye + depth * (forward + nx * right + ny * up);
-        const Projected old = project(then, point, kMotionSize);
+        glm::dvec3 before = point;
+        if (const scene::PartMotion* own =
+                motionOf(scene, made.ids[static_cast<size_t>(y * kMotionSize.x + x)])) {
+          before = glm::dvec3(own->at(0.5) * glm::inverse(own->at(0.6)) * glm::dvec4(point, 1.0));
+          ++moving;
+        }
+        const Projected old = project(then, before, kMotionSize);
         const glm::dvec2 expected = glm::dvec2(x + 0.5, y + 0.5) - old.px;
         // Float's 24 bits over a picture of 56 px, and the depth's own error times the motion it causes.
         EXPECT_NEAR(made.displacement.at(x, y, 0), expected.x, 2e-4);
@@ -85,6 +119,7 @@ TEST_F(MotionTest, IsTheReprojectionOfEachPixelsPoint) {
         largest = std::max(largest, glm::length(expected));
       }
     EXPECT_GT(largest, 1.0) << "the camera hardly moves, the test says nothing";
+    EXPECT_EQ(moving > 50, partMoves) << moving;
   }
 }
 

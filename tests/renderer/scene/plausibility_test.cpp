@@ -28,6 +28,7 @@ const std::map<std::string, std::set<std::string>> kClosedParts = {
     {"pole", {"pole"}},
     {"sphere_grid", {"spheres"}},
     {"street_light", {"pole", "wood"}},
+    {"tessellated_corner", {"lumps"}},
     {"textured_ground", {"rails", "balls"}},
     {"textured_light", {"sphere", "cone"}},
     {"two_boxes", {"low_box", "high_box"}},

@@ -102,6 +102,7 @@ inline Given needed(const std::string& scene) {
   if (scene == "lod/mesh") return {{"file", roundMeshFile()}};
   if (scene == "curved/pn_mesh") return {{"file", creasedMeshFile()}};
   if (scene == "boulders") return {{"tessellation", int64_t{4}}};
+  if (scene == "tessellated_corner") return {{"tessellation", int64_t{4}}, {"vertices", int64_t{9}}};
   if (scene == "curved/spheres") return {{"tessellation", int64_t{2}}};
   if (scene == "curved/trimmed") return {{"tessellation", int64_t{3}}};
   if (scene == "curved/star_field") return {{"tessellation", int64_t{2}}, {"layers", int64_t{1}}};

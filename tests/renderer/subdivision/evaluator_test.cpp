@@ -168,8 +168,8 @@ TEST_F(TablesOnGpu, FirstStepEqualsTheCpu) {
 /// HOL-08. Weights of 24 slots in single precision: 24 roundings of 6e-8, of extents up to 5.
 TEST_F(TablesOnGpu, VerticesAreLimitPointsAtEveryLevel) {
   for (int level = 1; level <= 5; ++level)
-    for (const PolygonMesh& mesh : {surfaces::bipyramid(3), surfaces::bipyramid(18), surfaces::boundaryFan(4), surfaces::boundaryFan(1),
-                                    surfaces::openSheet(3, true)}) {
+    for (const PolygonMesh& mesh : {surfaces::bipyramid(3), surfaces::bipyramid(18), surfaces::boundaryFan(4),
+                                    surfaces::boundaryFan(1), surfaces::openSheet(3, true)}) {
       EXPECT_LT(errorsOf(made(mesh, level), mesh).position, 1e-5) << level;
     }
   EXPECT_LT(errorsOf(made(figureCage(), 3), figureCage()).position, 1e-5);
@@ -488,6 +488,41 @@ TEST_F(TablesOnGpu, FormsDrawTheSamePicture) {
         render(scene, "subdivision/recursive", {{"level", int64_t{4}}}, {160, 120}).product;
     EXPECT_LT(meanDifference(compute, recursive), 0.02) << scheme;
     EXPECT_GT(meanDifference(compute, recursive), 0.0) << scheme;
+  }
+}
+
+/// HOL-11: checks by texture coordinates, against recursion in double precision. Coordinates of 16 bits move
+/// the edge of a check by less than 1/1000, over some 20 of the 7,081 pixels, and normals of the second step
+/// are .05 rad off: 0.016 and 0.018, as subdivision_seams.yaml derives them, in quadrature 0.024. A patch
+/// that took a neighbour's coordinates beyond a seam would show checks at random on 2 of 20 rows: 0.3
+/// sqrt(0.05) = 0.067. Segments of a quarter of a pixel ask for the finest levels, whose triangles are
+/// smaller than checks by far. There are 480 patches of 289 vertices or more: more than a software renderer's
+/// tessellation stages draw at once.
+TEST_F(TablesOnGpu, EveryFormHasTextureCoordinates) {
+  const glm::ivec2 size(97, 73);
+  for (const std::string scheme : {"loop", "catmull_clark"}) {
+    const scene::Scene scene =
+        makeScene("curved/control_mesh", {{"cage", std::string("seamed_ring")}, {"scheme", scheme}});
+    const Image truth = render(scene, "subdivision/recursive", {{"level", int64_t{5}}}, size).product;
+    const auto error = [&](Given given) {
+      given["level"] = int64_t{5}, given["normals"] = std::string("second");
+      const Image found = render(scene, "subdivision/tables", given, size).product;
+      double sum = 0.0;
+      for (size_t i = 0; i < found.pixels(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+          sum += std::pow(double(found.data[4 * i + c]) - truth.data[4 * i + c], 2.0) / 3.0;
+      return std::sqrt(sum / double(found.pixels()));
+    };
+    EXPECT_LT(error({{"form", std::string("instanced")}}), 0.024) << scheme;
+    EXPECT_LT(error({{"form", std::string("tessellation_stages")}}), 0.024) << scheme;
+    for (const bool morph : {false, true})
+      for (const char* raster : {"hardware", "compute"})
+        EXPECT_LT(error({{"refinement", std::string("edges")},
+                         {"refinement.segment_px", 0.25},
+                         {"refinement.morph", morph},
+                         {"raster", std::string(raster)}}),
+                  0.024)
+            << scheme << " " << morph << " " << raster;
   }
 }
 

@@ -56,6 +56,23 @@ TEST_F(Isocurves, DoNotDriftInParts) {
         << stepping;
 }
 
+// A patch a thousand and more pixels across, of which 96 x 72 are seen: their 20 points a pixel each way are
+// up to (96 x 20) x (72 x 20) / 64 = 43,200 of one group's invocations, in parts of which one may have them
+// all, beside the points that are out of sight. No pixel stays empty, whatever rounds an invocation's loops
+// may take.
+TEST_F(Isocurves, LeaveNoHoleOfAPatchSeenClosely) {
+  scene::Scene scene =
+      makeScene("curved/sheet", {{"columns", int64_t{1}}, {"rows", int64_t{1}}, {"relief", 0.02}});
+  scene::setStillCamera(scene,
+                        {glm::dvec3(0.03, 0.09, 0.05), glm::dvec3(0.03, 0.0, 0.03), {0.0, 1.0, 0.0}, 40.0});
+  const Rendered made =
+      render(scene, "isocurves/forward_differences",
+             {{"stepping", std::string("hybrid")}, {"spacing_px", 0.1}, {"restart", int64_t{4096}}},
+             kIsocurvesSize, true);
+  EXPECT_EQ(made.counter("surface_px"), 96 * 72);
+  EXPECT_EQ(made.counter("hole_px"), 0);
+}
+
 // Four pixels apart, curves leave most pixels between them empty.
 TEST_F(Isocurves, HolesAreCounted) {
   const scene::Scene scene = makeScene("curved/teapot");

@@ -58,6 +58,28 @@ TEST_F(StreamTechniques, DistributeToBucketsInOrder) {
   EXPECT_EQ(productOf(scene, "stream_reduction/sequential_distribution"), expected);
 }
 
+// Running sums of the items that are valid, by hand; a copy shows what it was given. 4,096 items and more are
+// several tiles of a scan, 3,072 a whole number of rows.
+TEST_F(StreamTechniques, CountTheValidItemsBeforeEach) {
+  for (const int64_t elements : {0, 1, 3072, 9999}) {
+    const scene::Scene scene = makeScene("stream", {{"elements", elements}});
+    std::vector<float> expected;
+    float valid = 0.0F;
+    for (const uint32_t item : scene.items->items) {
+      expected.push_back(valid);
+      if (item != scene::ItemStream::kInvalid) valid += 1.0F;
+    }
+    expected.resize(size_t(elements / 1024 + 1) * 1024, kStreamEnd);
+    for (const char* scan : {"look_back", "reduce_then_scan"})
+      EXPECT_EQ(productOf(scene, "stream_reduction/prefix_sum", {{"scan", std::string(scan)}}), expected)
+          << scan << " " << elements;
+    for (const char* by : {"compute", "driver"})
+      EXPECT_EQ(productOf(scene, "stream_reduction/copy", {{"by", std::string(by)}}), expected)
+          << by << " " << elements;
+    EXPECT_EQ(productOf(scene, "stream_reduction/sequential_sums"), expected) << elements;
+  }
+}
+
 TEST_F(StreamTechniques, RefuseRowsShorterThanABlock) {
   const std::optional<Error> refused = refusal(
       "stream_reduction/hierarchical",

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fields made in compute against Embree's, and rays looked up in them against what geometry allows.
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <thread>
 
 #include "renderer/scene/shapes.h"
 #include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_batch.h"
+#include "renderer/visibility_fields/field_bindings.h"
+#include "renderer/visibility_fields/field_store.h"
 #include "renderer/visibility_fields/map_functions.h"
 #include "tests/renderer/gl/gl_fixture.h"
 
@@ -328,6 +334,93 @@ TEST(Sphere, HoldsAllPointsAndIsSmall) {
     EXPECT_LE(glm::distance(p, ofCorners.centre), ofCorners.radius * (1.0 + 1e-12));
 }
 
+class KeptFields : public Field {
+ protected:
+  void SetUp() override {
+    Field::SetUp();
+    std::string pattern = (std::filesystem::temp_directory_path() / "limen_fields_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    std::filesystem::remove_all(folder_);
+    Field::TearDown();
+  }
+  std::vector<std::filesystem::path> files() const {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) out.push_back(entry.path());
+    return out;
+  }
+  std::string folder_;
+};
+
+TEST_F(KeptFields, AreReadAsTheyWereMade) {
+  const std::vector<RigidObject> objects = {objectOf(coneAndBox()),
+                                            objectOf(scene::box({0, 0, 0}, {1, 2, 3}))};
+  for (const int bits : {1, 8, 32}) {
+    const FieldForm form{PositionForm::Lattice, 82, DirectionForm::Concentric, 16, bits};
+    const VisibilityFields made(context(), objects, form);
+    const VisibilityFields first(context(), {objects[1]}, form, 0, folder_);
+    EXPECT_EQ(first.fieldsRead(), 0U);
+    const VisibilityFields second(context(), objects, form, 0, folder_);
+    EXPECT_EQ(second.fieldsRead(), 1U);
+    const VisibilityFields third(context(), objects, form, 0, folder_);
+    EXPECT_EQ(third.fieldsRead(), 2U);
+    for (uint32_t object = 0; object < 2; ++object) {
+      EXPECT_EQ(second.readShares(object), made.readShares(object)) << bits;
+      EXPECT_EQ(third.readShares(object), made.readShares(object)) << bits;
+    }
+  }
+}
+
+// Another object or form is another file; one that is cut short or has a letter changed is made again and
+// replaced.
+TEST_F(KeptFields, ADamagedFileIsReplaced) {
+  const RigidObject object = objectOf(coneAndBox());
+  FieldForm form{PositionForm::Lattice, 82, DirectionForm::Concentric, 16, 8};
+  const std::vector<float> right = VisibilityFields(context(), {object}, form, 0, folder_).readShares(0);
+  ASSERT_EQ(files().size(), 1U);
+  const std::filesystem::path file = files()[0];
+  for (const bool cut : {true, false}) {
+    if (cut) {
+      std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    } else {
+      std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+      out.seekp(1000);
+      out.put(static_cast<char>(0x5a)), out.put(static_cast<char>(0xa5));
+    }
+    const VisibilityFields again(context(), {object}, form, 0, folder_);
+    EXPECT_EQ(again.fieldsRead(), 0U);
+    EXPECT_EQ(again.readShares(0), right);
+    EXPECT_EQ(VisibilityFields(context(), {object}, form, 0, folder_).fieldsRead(), 1U);
+  }
+  form.directions = 8;
+  EXPECT_EQ(VisibilityFields(context(), {object}, form, 0, folder_).fieldsRead(), 0U);
+  EXPECT_EQ(files().size(), 2U);
+}
+
+// Writers and readers at once, as of several processes: whatever is there is whole.
+TEST_F(KeptFields, AreWholeWhileOthersWriteThem) {
+  const FieldStore store(folder_, "device");
+  const std::string path = folder_ + "/one.field";
+  const StoredField field{std::vector<uint32_t>(50000, 7U), {}};
+  store.write(path, field);
+  std::atomic<int> missing = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < 4; ++thread)
+      threads.emplace_back([&, thread] {
+        for (int i = 0; i < 10; ++i)
+          if (thread % 2 == 0)
+            store.write(path, field);
+          else if (!store.read(path, 50000, 0))
+            ++missing;
+      });
+  }
+  EXPECT_EQ(missing, 0);
+  EXPECT_EQ(files().size(), 1U);
+}
+
 TEST(Objects, ArePartsOrConnectedPieces) {
   scene::Scene scene;
   scene::Part ground{.name = "ground", .firstTriangle = 0, .triangleCount = 2, .receiverOnly = true};
@@ -337,14 +430,39 @@ TEST(Objects, ArePartsOrConnectedPieces) {
   scene::Part part{
       .name = "boxes", .firstTriangle = 2, .triangleCount = static_cast<uint32_t>(two.triangles.size())};
   scene::append(scene.mesh, two);
+  scene.materials.emplace_back();
   scene.parts = {ground, part};
-  const RigidObjects parts = rigidObjectsOf(scene, ObjectForm::Parts);
+  const RigidObjects parts = rigidObjectsOf(scene, PartObjects{});
   ASSERT_EQ(parts.objects.size(), 1U);
   EXPECT_EQ(parts.objectOf[0], 0xffffffffU);
   EXPECT_EQ(parts.objectOf[2], 0U);
-  const RigidObjects pieces = rigidObjectsOf(scene, ObjectForm::Pieces);
+  const RigidObjects pieces = rigidObjectsOf(scene, PieceObjects{});
   ASSERT_EQ(pieces.objects.size(), 2U);
   for (size_t i = 2; i < pieces.objectOf.size(); ++i) EXPECT_EQ(pieces.objectOf[i], i < 14 ? 0U : 1U);
+  // As pieces up to the limit, as a part beyond it.
+  EXPECT_EQ(rigidObjectsOf(scene, AutoObjects{2}).objectOf, pieces.objectOf);
+  EXPECT_EQ(rigidObjectsOf(scene, AutoObjects{1}).objectOf, parts.objectOf);
+}
+
+// Parts of many pieces each, all within their own limit: those that would leave no room for the parts to come
+// are one object.
+TEST(Objects, AutoKeepsRoomForEveryPart) {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  for (int part = 0; part < 20; ++part) {
+    scene::Mesh mesh;
+    for (int piece = 0; piece < 30; ++piece)
+      scene::append(
+          mesh, scene::box(glm::dvec3(3 * piece, 3 * part, 0), glm::dvec3(3 * piece + 1, 3 * part + 1, 1)));
+    scene.parts.push_back({.name = "boxes",
+                           .firstTriangle = static_cast<uint32_t>(scene.mesh.triangles.size()),
+                           .triangleCount = static_cast<uint32_t>(mesh.triangles.size())});
+    scene::append(scene.mesh, mesh);
+  }
+  const RigidObjects objects = rigidObjectsOf(scene, AutoObjects{});
+  // 8 parts of 30 pieces, and 12 whole: a ninth in pieces would make 270 of 256.
+  EXPECT_EQ(objects.objects.size(), 8U * 30U + 12U);
+  EXPECT_EQ(std::count(objects.objectOf.begin(), objects.objectOf.end(), kFieldNoObject), 0);
 }
 
 }  // namespace

@@ -113,6 +113,40 @@ TEST_F(VoxelizerTest, CoversASoupAsExactSetsSay) {
   }
 }
 
+// Far from the origin, where doubles still tell positions of a voxel apart but floats would not, and for
+// grids of any size of voxel: the sets are those of the scene at rest, but for what lies within rounding.
+TEST_F(VoxelizerTest, PlaceAndScaleDoNotMatter) {
+  for (const double scale : {1e-4, 1.0, 1e4})
+    for (const double offset : {0.0, 1e6}) {
+      scene::Scene scene = soup(4);
+      for (glm::dvec3& position : scene.mesh.positions) position = scale * (position + offset);
+      const VoxelGrid grid = tightGrid(scene.bounds(), 40);
+      const std::vector<uint8_t> conservative = voxelize(scene, grid, Coverage::Conservative);
+      EXPECT_EQ(compare(conservative, exactVoxels(scene.mesh, grid)).missing, 0) << scale << " " << offset;
+      EXPECT_EQ(beyond(conservative, scene.mesh, grid, kNear), 0) << scale << " " << offset;
+      const std::vector<uint8_t> thin = voxelize(scene, grid, Coverage::Thin);
+      EXPECT_EQ(compare(thin, separatingVoxels(scene.mesh, grid, kEnds)).missing, 0)
+          << scale << " " << offset;
+      EXPECT_EQ(beyond(thin, scene.mesh, grid, kNear), 0) << scale << " " << offset;
+    }
+}
+
+// A triangle of a hundredth of a voxel between all middle lines is in no thin set, and in the conservative
+// one in its own voxel only.
+TEST_F(VoxelizerTest, TinyTrianglesAreKeptByTheConservativeSetAlone) {
+  scene::Scene scene;
+  scene::Mesh mesh;
+  mesh.positions = {{2.2, 3.3, 1.2}, {2.21, 3.3, 1.2}, {2.2, 3.31, 1.21}};
+  mesh.triangles = {{0, 1, 2}};
+  scene::addPart(scene, "speck", mesh, glm::vec3(0.5F));
+  VoxelGrid grid;
+  grid.resolution = glm::ivec3(5);
+  EXPECT_EQ(countOf(voxelize(scene, grid, Coverage::Thin)), 0);
+  const std::vector<uint8_t> conservative = voxelize(scene, grid, Coverage::Conservative);
+  EXPECT_EQ(countOf(conservative), 1);
+  EXPECT_EQ(conservative[static_cast<size_t>(grid.indexOf({2, 3, 1}))], 1);
+}
+
 /// Whether a path of empty voxels, face to face, leads from one voxel to another.
 bool leadsTo(const std::vector<uint8_t>& occupied, const VoxelGrid& grid, glm::ivec3 from, glm::ivec3 to) {
   std::vector<uint8_t> seen = occupied;

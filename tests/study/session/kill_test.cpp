@@ -22,14 +22,15 @@ class KillTest : public SessionStoreTest {
   pid_t start(const std::string& store, const std::string& session, const std::string& limit = {}) {
     int ends[2];
     EXPECT_EQ(pipe(ends), 0);
+    // Made before: another thread may hold the allocator's lock while the process is copied.
+    const std::string program = std::string(LIMEN_BIN_DIR) + "/kill_victim", err = path("err");
     const pid_t child = fork();
     if (child == 0) {
       dup2(ends[1], STDOUT_FILENO);
       close(ends[0]);
       close(ends[1]);
-      dup2(open(path("err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+      dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
       if (chdir(folder_.c_str()) != 0) _exit(126);
-      const std::string program = std::string(LIMEN_BIN_DIR) + "/kill_victim";
       execl(program.c_str(), program.c_str(), store.c_str(), session.c_str(),
             limit.empty() ? nullptr : limit.c_str(), nullptr);
       _exit(127);

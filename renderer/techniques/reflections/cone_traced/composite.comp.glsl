@@ -7,6 +7,8 @@
 //   FILTERED   patterns as wide as the overlap
 //   PEEL       writes all that fill a share of a cone, for peeling, in place of the nearest
 //   UNFILLED, RESCALED, ENVIRONMENT   what fills the rest
+//   RESUMED    a dispatch looks at a part of each list, and the last one composes: a software renderer limits the loop
+//              rounds of an invocation
 #include "renderer/techniques/reflections/cone_traced/cone_traced_bindings.h"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
@@ -23,7 +25,11 @@ layout(std430, binding = kConeListsBuffer) readonly buffer Lists { uint lists[];
 
 uniform ivec2 sizePx;
 uniform uint tileCount, triangleCount, leafLevel;
-uniform int mostIterations;
+#ifdef RESUMED
+layout(binding = kConeStateImage, rg32ui) uniform uimage2DArray searchState;
+uniform uint firstEntry;  // of each list that this dispatch looks at: kConeEntriesPerRound, then the others' turn
+uniform bool finishing;   // no other dispatch comes
+#endif
 uniform float leastShare, farRadius;
 uniform bool flatShading;
 #ifdef FILTERED
@@ -65,7 +71,6 @@ vec3 colourAt(Beam beam, BeamShare found, uint triangle) {
 
 // A triangle that may meet the cone: keeps it if it does.
 void consider(Beam beam, uint triangle, uint leaves, float wide) {
-  ++iterations;
   if (triangle == leaves) return;
   const vec4 sphere = spheres[triangle];
   if (!(sphere.w >= 0.0)) return;
@@ -80,7 +85,6 @@ void consider(Beam beam, uint triangle, uint leaves, float wide) {
   const float least = first - 1e-5 * abs(centre.z);
   if (least > needed || (keptCount == LAYERS && least > uintBitsToFloat(kept[0].x))) return;
 #endif
-  iterations += 26;
   const uvec3 vertices = sceneTriangle(triangle);
   const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y), scenePosition(vertices.z),
                                   originTolerance);
@@ -95,6 +99,23 @@ void consider(Beam beam, uint triangle, uint leaves, float wide) {
   keep(uvec2(floatBitsToUint(found.along), triangle));
 #endif
 }
+
+#ifdef RESUMED
+void loadSearch(ivec2 pixel) {
+  const uvec2 state = imageLoad(searchState, ivec3(pixel, 0)).xy, counted = imageLoad(searchState, ivec3(pixel, 1)).xy;
+  keptCount = int(state.x);
+  needed = uintBitsToFloat(state.y);
+  met = int(counted.x);
+  metShare = uintBitsToFloat(counted.y);
+  for (int i = 0; i < keptCount; ++i) kept[i] = imageLoad(searchState, ivec3(pixel, 2 + i)).xy;
+}
+
+void storeSearch(ivec2 pixel) {
+  imageStore(searchState, ivec3(pixel, 0), uvec4(keptCount, floatBitsToUint(needed), 0u, 0u));
+  imageStore(searchState, ivec3(pixel, 1), uvec4(met, floatBitsToUint(metShare), 0u, 0u));
+  for (int i = 0; i < keptCount; ++i) imageStore(searchState, ivec3(pixel, 2 + i), uvec4(kept[i], 0u, 0u));
+}
+#endif
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -113,26 +134,27 @@ void main() {
     const ivec2 at = pixel >> int(leafLevel);
     const uint tile = uint(at.y * ((sizePx.x + (1 << leafLevel) - 1) >> leafLevel) + at.x);
     const uint first = lists[2u * tile], listed = lists[2u * tile + 1u];
-    const uint number = listed == kConeUnlisted ? triangleCount : listed;
+    uint begin = 0u, end = listed == kConeUnlisted ? triangleCount : listed;
     const float wide = texelFetch(coneShapes, pixel, 0).x;
-    bool cutShort = false;
     keepNone();
-    for (uint i = 0u; i < number; ++i) {
+#ifdef RESUMED
+    if (firstEntry > 0u && firstEntry >= end && !finishing) return;
+    if (firstEntry > 0u) loadSearch(pixel);
+    begin = firstEntry;
+    end = min(end, firstEntry + kConeEntriesPerRound);
+#endif
+    for (uint i = begin; i < end; ++i)
       consider(beam, listed == kConeUnlisted ? i : lists[2u * tileCount + first + i], id, wide);
-      if (iterations > mostIterations) {
-        cutShort = true;
-        break;
-      }
+#ifdef RESUMED
+    if (!finishing) {
+      storeSearch(pixel);
+      return;
     }
+#endif
     sortKept();
     vec3 sum = vec3(0.0);
     float covered = 0.0, keptShare = 0.0;
     for (int i = 0; i < keptCount; ++i) {
-#ifdef MASKED
-      iterations += 26 + OVERLAP_CORNERS + kConeMaskPoints;
-#else
-      iterations += 26;
-#endif
       const uint triangle = kept[i].y;
       const uvec3 vertices = sceneTriangle(triangle);
       const BeamShare found = shareOf(beam, scenePosition(vertices.x), scenePosition(vertices.y),
@@ -146,8 +168,7 @@ void main() {
       if (covered >= 0.99999) break;
 #endif
     }
-    if (iterations > mostIterations) cutShort = true;
-    result = cutShort ? vec4(uintBitsToFloat(0x7fc00000u)) : filled(sum, covered, direction.xyz, direction.w);
+    result = filled(sum, covered, direction.xyz, direction.w);
     counts = vec4(float(met), float(keptCount), max(metShare - keptShare, 0.0), covered);
   }
   imageStore(outImage, pixel, result);

@@ -6,7 +6,8 @@
 // apex. Triangles are cut at the mirror's own plane too: what a cone has below it holds no light, and shares
 // are those of the rest. Pairs end at tiles of pixels (traversal.leaf_side), each pixel tests its tile's
 // triangles itself and keeps the nearest ones in a heap. A tile whose pairs found no room takes all
-// triangles of the scene: slower, but no frame loses any. What hides all behind it ends the search.
+// triangles of the scene: slower, but no frame loses any. What hides all behind it ends the search. A
+// software renderer, which limits the loop rounds of an invocation, takes the lists in several dispatches.
 #include <epoxy/gl.h>
 
 #include <cmath>
@@ -82,6 +83,9 @@ class ConeTraced : public Technique {
     gl::ShaderDefines cones = frame::surfaceDefines(frame, true);
     if (settings_.reflection == ConeReflection::EdgeRays) cones["EDGE_RAYS"] = "1";
     cones_ = &cache.compute(folder + "cones.comp.glsl", cones);
+    traversal_.emplace(frame, settings_.traversal, false, HierarchyLeaves::Cones);
+    setFarthest(frame);
+    lists_.emplace(frame, *traversal_);
     gl::ShaderDefines defines = compositeDefines(frame);
     if (const auto* peeled = std::get_if<PeeledLayers>(&settings_.backEnd)) {
       peeling_.emplace(frame, peeled->room);
@@ -106,12 +110,10 @@ class ConeTraced : public Technique {
       surroundings_.emplace(frame, fill->resolution, true, settings_.shading);
       frame.passes().setBytesHeld(kConeSurroundingsPass, surroundings_->bytes());
     }
-    traversal_.emplace(frame, settings_.traversal, false, HierarchyLeaves::Cones);
-    setFarthest(frame);
-    lists_.emplace(frame, *traversal_);
+    if (lists_->rounds() > 1) state_.emplace(gl::Format::RG32UI, size, 1, settings_.layers + 2);
     frame.passes().setBytesHeld(kConesPass, origins_->bytes() + directions_->bytes() + shapes_->bytes());
     frame.passes().setBytesHeld(kConeListsPass, lists_->bytes() + traversal_->bytes());
-    frame.passes().setBytesHeld(kConeCompositePass, reflected_->bytes());
+    frame.passes().setBytesHeld(kConeCompositePass, reflected_->bytes() + (state_ ? state_->bytes() : 0));
     picture_.prepare(frame);
   }
 
@@ -203,6 +205,7 @@ class ConeTraced : public Technique {
     if (settings_.contribution == ConeContribution::Table) defines["TABLE"] = "1";
     if (settings_.coverage == ConeCoverage::Masked) defines["MASKED"] = "1";
     if (settings_.filterPatterns) defines["FILTERED"] = "1";
+    if (lists_->rounds() > 1) defines["RESUMED"] = "1";
     defines.merge(fillDefines());
     return defines;
   }
@@ -274,7 +277,6 @@ class ConeTraced : public Technique {
     program.set("tileCount", traversal_->tileCount());
     program.set("triangleCount", frame.gpuScene().triangleCount());
     program.set("leafLevel", traversal_->leafLevel());
-    program.set("mostIterations", frame.context().device().software ? 60000 : 0x7fffffff);
     program.set("leastShare", static_cast<float>(settings_.leastShare));
     program.set("farRadius", static_cast<float>(settings_.farRadius * frame.gpuScene().diagonal()));
     program.set("tableSide", float(kTableSide));
@@ -289,8 +291,30 @@ class ConeTraced : public Technique {
     traversal_->spheres().bindStorage(kConeSpheresBuffer);
     lists_->lists().bindStorage(kConeListsBuffer);
     reflected_->bindImage(kConeImage, gl::Access::Write);
-    program.dispatch(frame.sizePx());
+    if (state_)
+      compositeInRounds(program, frame.sizePx());
+    else
+      program.dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  /// The first round and the last one take all pixels; those between them only what lists are long enough
+  /// for.
+  void compositeInRounds(const gl::Program& program, glm::ivec2 sizePx) const {
+    state_->bindImage(kConeStateImage, gl::Access::ReadWrite);
+    const uint32_t rounds = lists_->rounds();
+    for (uint32_t r = 0; r < rounds; ++r) {
+      program.set("firstEntry", r * kConeEntriesPerRound);
+      program.set("finishing", r + 1 == rounds ? 1 : 0);
+      if (r == 0 || r + 1 == rounds) {
+        program.dispatch(sizePx);
+      } else {
+        program.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, lists_->roundDispatches().id());
+        glDispatchComputeIndirect(GLintptr{12} * r);
+      }
+      glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
   }
 
   Settings settings_;
@@ -301,12 +325,12 @@ class ConeTraced : public Technique {
   std::optional<Surroundings> surroundings_;
   std::optional<PairTraversal> traversal_;
   std::optional<ConeLists> lists_;
-  std::optional<gl::Texture> origins_, directions_, shapes_, reflected_, solidAngles_, mask_, table_;
+  std::optional<gl::Texture> origins_, directions_, shapes_, reflected_, solidAngles_, mask_, table_, state_;
 };
 
 const RegisteredTechnique<ConeTraced> kConeTracedRegistered{
     {.name = "reflections/cone_traced",
-     .version = 1,
+     .version = 2,
      .summary = "Glossy and antialiased mirrors by one cone for each pixel",
      .source = "Roger 2008, chapter 5 (R-37 to R-52)",
      .product = ProductKind::Colour,

@@ -32,6 +32,14 @@ const uint kConeSumsBuffer = 1u;
 const uint kConeTilesBuffer = 6u;  // as the traversal leaves them
 const uint kConeListsBuffer = 7u;  // first triangle and number of each tile; then triangles
 const uint kConeUnlisted = 0xffffffffu;
+const uint kConeRoundsBuffer = 2u;  // indirect dispatches of the composition: three numbers for each round
+
+// Entries of a list that a dispatch of the composition looks at on a software renderer, which ends an
+// invocation's loops after 65,535 rounds in all. An entry takes at most 26 rounds of clipping and overlap, 20
+// of the heap, 16 octaves of a pattern and one of its own: 24,192 for 384 of them. Loading, storing and
+// sorting 256 kept triangles and composing them takes 2 x 256 + 256 x 10 + 256 x (26 + 5 + 64 + 16) = 31,488
+// more.
+const uint kConeEntriesPerRound = 384u;
 
 // Composition.
 const uint kConeSpheresBuffer = 6u;
@@ -43,6 +51,8 @@ const uint kConeMaskUnit = 5u;
 const uint kConeEnvironmentUnit = 6u;
 const uint kConeImage = 0u;
 const uint kConeCountsImage = 1u;
+const uint kConeStateImage =
+    4u;  // between rounds: two layers of numbers, then one for each triangle that may be kept
 const int kConeMaskPoints = 64;
 
 // Peeling.

@@ -3,11 +3,10 @@
 // distance the one of the lower number is nearer, so that the order of lists changes nothing.
 uvec2 kept[LAYERS];  // bits of the distance, triangle
 int keptCount;
-int iterations;
 
 void keepNone() {
   kept[0] = uvec2(0u);
-  keptCount = iterations = 0;
+  keptCount = 0;
 }
 
 bool isNearer(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
@@ -15,7 +14,6 @@ bool isNearer(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y);
 void siftDown(int at, int count) {
   const uvec2 item = kept[at];
   while (true) {
-    ++iterations;
     int child = 2 * at + 1;
     if (child >= count) break;
     if (child + 1 < count && isNearer(kept[child], kept[child + 1])) ++child;
@@ -30,7 +28,6 @@ void keep(uvec2 item) {
   if (keptCount < LAYERS) {
     int at = keptCount++;
     while (at > 0) {
-      ++iterations;
       const int above = (at - 1) / 2;
       if (!isNearer(kept[above], item)) break;
       kept[at] = kept[above];
@@ -45,7 +42,6 @@ void keep(uvec2 item) {
 
 void sortKept() {
   for (int end = keptCount - 1; end > 0; --end) {
-    ++iterations;
     const uvec2 farthest_ = kept[0];
     kept[0] = kept[end];
     kept[end] = farthest_;

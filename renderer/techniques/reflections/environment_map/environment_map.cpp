@@ -55,6 +55,7 @@ const RegisteredTechnique<EnvironmentMap> kEnvironmentMapRegistered{
      .source = "Roger 2008, sections 1.3.2 and 5.1 (R-54 to R-58)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = EnvironmentLight::counters()}};
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/base/error.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 
 namespace limen::techniques {
@@ -48,6 +49,11 @@ Surroundings::Surroundings(frame::Frame& frame, int resolution, bool mipLevels,
                            const frame::ShadedSetting& shading, int layers)
     : shading_(shading) {
   const scene::Scene& scene = frame.scene();
+  for (const scene::PartMotion& motion : scene.motions)
+    if (scene.materials[scene.parts[motion.part].material].reflects())
+      throw Error("a map of a mirror's surroundings has one place, and part '" +
+                      scene.parts[motion.part].name + "' moves",
+                  scene.name, "choose reflections/ray_traced or reflections/ray_hierarchy");
   const MapReflector reflector = largestMapReflector(scene, frame.gpuScene().anchor());
   part_ = reflector.part, middle_ = reflector.middle;
   std::vector<uint32_t> partOf(scene.mesh.triangles.size());

@@ -7,6 +7,7 @@ layout(local_size_x = 1) in;
 layout(std430, binding = kHierarchyControlBuffer) buffer Control { HierarchyControl control; };
 
 uniform uint capacity, level, raysPerLeaf, mode;
+uniform uint regions;  // that share the groups without room
 uniform uint batch;  // whose overflow is noted
 uniform bool isLeaf;
 #ifdef SPARSE
@@ -65,7 +66,7 @@ void main() {
   control.resolveZ = 1u;
   control.finishX = min(finish, kDispatchRow);
   control.finishY = rowsOf(finish);
-  control.finishZ = 1u;
+  control.finishZ = regions;
   control.finishGroups = finish;
   control.leftEver += finish;
   if (finish > 0u) control.batchLeft[batch] += finish;

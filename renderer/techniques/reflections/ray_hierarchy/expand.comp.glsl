@@ -2,7 +2,8 @@
 // One step down the hierarchy for all pairs of nodes and triangles (Roger 2008, section 3.3.3): a node's four children
 // against the triangle's sphere, and those that remain packed by the group, which asks for room once.
 //   START   reads no pairs: all triangles of a batch with all nodes of level `fromLevel`, above which nothing is tested
-//   FINISH  takes the groups that found no room, and goes down to the rays on the spot
+//   FINISH  takes the groups that found no room, and goes down to the rays on the spot; each layer of groups within one region
+//           of the picture, so that a software renderer's loops end in time
 //   SPILL   pairs without room go to a buffer of pairs that wait
 //   CONES   those that find no room mark their tiles as lacking pairs, on the way to the rays
 //   SPARSE  four places for each pair, valid or not, that a stream reduction packs; pairs from `capacity` on find no room
@@ -43,6 +44,8 @@ uint nodeOf(uint level, ivec2 at) { return level << (2 * kNodeBits) | uint(at.y)
 
 #ifdef FINISH
 uniform int mostIterations;
+uniform uint regionLevel;  // of the nodes that are the regions
+uniform int regionsAcross;
 
 #ifdef CONES
 void meetAll(ivec2 at, uint triangle) { tiles[tileLacks(tileOf(at))] = 1u; }
@@ -59,7 +62,7 @@ void meetAll(ivec2 at, uint triangle) {
 }
 #endif
 
-int iterations = 0;
+int iterations = 0;  // loop rounds, but for those in which only neighbours take part
 
 // All that lies below the node, which the sphere may meet: without a stack, as children follow from places.
 void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
@@ -76,10 +79,12 @@ void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
       at *= 2;
     } else {
       if (meets) {
-        iterations += 1 << (2u * leafLevel);
+        iterations += 3 << (2u * leafLevel);
         meetAll(at, triangle);
       }
+      ++iterations;
       while (level < top && (at.x & at.y & 1) == 1) {
+        ++iterations;
         at >>= 1;
         ++level;
       }
@@ -87,6 +92,16 @@ void descend(uint top, ivec2 at, uint triangle, vec4 sphere) {
       at = (at.x & 1) == 0 ? ivec2(at.x + 1, at.y) : ivec2(at.x - 1, at.y + 1);
     }
     meets = all(lessThan(at, levelSize(level))) && mayMeet(nodeAt(level, at), sphere);
+  }
+}
+
+// What of the node lies in this group's region.
+void descendRegion(uint level, ivec2 at, uint triangle, vec4 sphere) {
+  const ivec2 region = ivec2(int(gl_WorkGroupID.z) % regionsAcross, int(gl_WorkGroupID.z) / regionsAcross);
+  if (level <= regionLevel) {
+    if (at >> int(regionLevel - level) == region) descend(level, at, triangle, sphere);
+  } else if (region >> int(level - regionLevel) == at && mayMeet(nodeAt(regionLevel, region), sphere)) {
+    descend(regionLevel, region, triangle, sphere);
   }
 }
 #else
@@ -138,7 +153,7 @@ void main() {
 #ifdef FINISH
   for (int child = 0; child < 4; ++child)
     if ((found >> child & 1u) != 0u)
-      descend(childLevel, 2 * place + ivec2(child & 1, child >> 1), triangle, sphere);
+      descendRegion(childLevel, 2 * place + ivec2(child & 1, child >> 1), triangle, sphere);
 #elif defined(SPARSE)
   const uint slot = 4u * (group * uint(kTraversalGroup) + gl_LocalInvocationIndex);
   for (int child = 0; child < 4; ++child)

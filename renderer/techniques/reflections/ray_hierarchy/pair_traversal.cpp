@@ -67,6 +67,12 @@ PairTraversal::PairTraversal(frame::Frame& frame, const TraversalSettings& setti
     nodes += static_cast<uint32_t>(size.x) * static_cast<uint32_t>(size.y);
     if (size == glm::ivec2(1)) break;
   }
+  if (frame.context().device().software) {
+    regionLevel_ = kHierarchyRegionLevel;
+    // No dimension of a dispatch has more groups.
+    while (levelSize(regionLevel_).x * levelSize(regionLevel_).y > 65535) ++regionLevel_;
+    regions_ = levelSize(regionLevel_);
+  }
   leafLevel_ = static_cast<uint32_t>(log2Of(settings.leafSide));
   leafLevel_ = std::min(leafLevel_, static_cast<uint32_t>(levelFirst_.size() - 1));
   tileCount_ =
@@ -189,6 +195,7 @@ void PairTraversal::step(uint32_t level, uint32_t batch, uint32_t mode) const {
   controlProgram_->set("level", level);
   controlProgram_->set("batch", batch);
   controlProgram_->set("mode", mode);
+  controlProgram_->set("regions", static_cast<uint32_t>(regions_.x * regions_.y));
   controlProgram_->set("isLeaf", level == leafLevel_ ? 1 : 0);
   controlProgram_->set("raysPerLeaf", 1U << (2 * leafLevel_));
   if (spills()) controlProgram_->set("spillCapacity", static_cast<uint32_t>(spills()->room));
@@ -205,6 +212,8 @@ void PairTraversal::configure(const frame::Frame& frame, const Programs& program
     program->set("capacity", static_cast<uint32_t>(capacity_));
     program->set("leafLevel", leafLevel_);
     program->set("mostIterations", mostIterations_);
+    program->set("regionLevel", regionLevel_);
+    program->set("regionsAcross", regions_.x);
     program->set("fromLevel", startLevel_);
     if (spills()) program->set("spillCapacity", static_cast<uint32_t>(spills()->room));
   }

@@ -120,6 +120,8 @@ class PairTraversal {
   uint32_t triangleCount_, startLevel_ = 0, leafLevel_ = 0;
   std::vector<uint32_t> levelFirst_;
   int mostIterations_;
+  uint32_t regionLevel_ = 31;
+  glm::ivec2 regions_{1};  ///< of groups without room; 1 on a GPU
   std::vector<Batch> batches_;
   uint32_t mostBatches_ = kHierarchyMostBatches;
   const gl::Program *spheresProgram_, *buildProgram_, *controlProgram_;

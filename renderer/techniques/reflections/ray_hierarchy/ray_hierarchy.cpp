@@ -140,6 +140,11 @@ class RayHierarchyReflections : public Technique {
   std::vector<Counter> count(frame::Frame& frame) override {
     const PairTraversal::Counts counts = traversal_->counts();
     const HierarchyControl& control = counts.control;
+    if (control.cutShort > 0)
+      throw Error(
+          "a triangle whose pairs found no room meets more nodes than this software renderer's loops allow",
+          "traversal.capacity",
+          "raise 'capacity', 'start_nodes' or 'leaf_side', render a smaller picture, or use a GPU");
     const double rays = static_cast<double>(raysOf(frame));
     const double tests = static_cast<double>(counts.tests), leaves = control.leafPairs;
     const double perLeaf = static_cast<double>(1U << (2 * traversal_->leafLevel()));
@@ -227,7 +232,7 @@ class RayHierarchyReflections : public Technique {
 
 const RegisteredTechnique<RayHierarchyReflections> kRayHierarchyRegistered{
     {.name = "reflections/ray_hierarchy",
-     .version = 2,
+     .version = 3,
      .summary = "Mirrors by a hierarchy over the rays, for scenes without a structure over their triangles",
      .source = "Roger 2008, chapter 3 (R-13 to R-26)",
      .product = ProductKind::Colour,

@@ -34,6 +34,12 @@ const uint kDispatchRow = 65535u;
 
 const int kHierarchyMostBatches = 4096;
 
+// Level of the regions into which a software renderer, which ends an invocation's loops after 65,535 rounds in all, divides
+// what groups without room go down to. A region has 1,365 nodes of single rays; in a round of the descent eight
+// invocations that run together take less than 6 rounds to go up, 4 to meet a ray, and 2 more: 1,365 x 12 = 16,380, and
+// only as many for rays in larger leaves.
+const uint kHierarchyRegionLevel = 5u;
+
 struct HierarchyControl {  // std430
   uint inputs;             // pairs of the stream that is read
   uint outputs;            // pairs of all groups so far, those that found no room included

@@ -236,7 +236,7 @@ std::vector<Quantity> reflectionNeedsQuantities() {
 
 const RegisteredTechnique<ReflectionNeeds> kReflectionNeedsRegistered{
     {.name = "reflections/scene_needs",
-     .version = 1,
+     .version = 2,
      .summary =
          "What a scene's mirrors need, by Roger's rule or by measuring all techniques, with the reasons "
          "on record",

@@ -204,6 +204,7 @@ const RegisteredTechnique<ScreenSpaceReflections> kScreenSpaceRegistered{
      .source = "McGuire and Mara 2014; Uludag 2014",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = {
          {"mirror_px", "Pixels that see a mirror", "px", Direction::Neither},
          {"steps_per_ray", "Steps per ray", "", Direction::LowerIsBetter},

@@ -140,7 +140,7 @@ std::vector<Quantity> sceneNeedsQuantities() {
 
 const RegisteredTechnique<SceneNeeds> kSceneNeedsRegistered{
     {.name = "soft_shadows/scene_needs",
-     .version = 2,
+     .version = 3,
      .summary =
          "The cheapest soft shadows within a target of error, of candidates that are measured, with the "
          "figures on record",

@@ -3,6 +3,7 @@
 // sphere and what the field says from there, so that cost does not depend on triangles. Source: Gaitatzes
 // 2012, sections 4.4 to 4.7; several objects by the nearest hit of each ray (the bench's own), by products,
 // or by passes that subtract (section 4.5.1).
+#include "experiments/base/error.h"
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/occlusion_settings.h"
 
@@ -38,6 +39,12 @@ struct FieldOcclusionSettings {
                                              "subtracted one after another",
                                              "Gaitatzes 2012, section 4.5.1 (subtract)"}};
     return kTable;
+  }
+  void check() const {
+    if (field.use.spheres > 1 && combine != CombineObjects::Nearest)
+      throw Error(std::string("'combine: ") + limen::toText(combine) +
+                      "' would count each of an object's 'spheres' by itself",
+                  "spheres", "leave out 'spheres', or use combine: nearest");
   }
   void define(gl::ShaderDefines& defines) const {
     defines["COMBINE"] = std::to_string(static_cast<int>(combine));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rays of visibility_fields/ambient_occlusion, traced against the triangles of the same objects instead:
 // what fields are compared with, exact for those rays, and the tracer that they must beat. Source: Gaitatzes
-// 2012, section 4.7 (MT-01; BL-02 without its grid).
+// 2012, section 4.7 (MT-01, BL-02).
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/occlusion_settings.h"
 
@@ -15,8 +15,10 @@ struct ObjectOcclusionSettings {
   static constexpr gl::Format kFormat = gl::Format::RGBA32F;
 
   OcclusionRays rays;
+  TracerSetting tracer;
   static const SettingsTable<ObjectOcclusionSettings>& table() {
-    static const SettingsTable<ObjectOcclusionSettings> kTable = {included(&ObjectOcclusionSettings::rays)};
+    using S = ObjectOcclusionSettings;
+    static const SettingsTable<S> kTable = {included(&S::rays), tracerBinding(&S::tracer)};
     return kTable;
   }
 };
@@ -25,7 +27,7 @@ const RegisteredTechnique<TracedTechnique<ObjectOcclusionSettings>> kObjectOcclu
     {.name = "visibility_fields/traced_occlusion",
      .version = 1,
      .summary = "Ambient occlusion by the same rays as from visibility fields, traced on the GPU",
-     .source = "Gaitatzes 2012, section 4.7 (MT-01; BL-02 without its grid)",
+     .source = "Gaitatzes 2012, section 4.7 (MT-01, BL-02)",
      .product = ProductKind::Colour,
      .needs = {"casters"},
      .reference = true,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rays of visibility_fields/soft_shadows, traced against the triangles of the same objects instead: exact
-// for those rays. Source: Gaitatzes 2012, section 4.7.2 (MT-01; BL-02 without its grid).
+// for those rays. Source: Gaitatzes 2012, section 4.7.2 (MT-01, BL-02).
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/light_rays.h"
 
@@ -14,8 +14,10 @@ struct ObjectShadowSettings {
   static constexpr gl::Format kFormat = gl::Format::R32F;
 
   LightRays rays;
+  TracerSetting tracer;
   static const SettingsTable<ObjectShadowSettings>& table() {
-    static const SettingsTable<ObjectShadowSettings> kTable = {included(&ObjectShadowSettings::rays)};
+    using S = ObjectShadowSettings;
+    static const SettingsTable<S> kTable = {included(&S::rays), tracerBinding(&S::tracer)};
     return kTable;
   }
 };
@@ -24,7 +26,7 @@ const RegisteredTechnique<TracedTechnique<ObjectShadowSettings>> kObjectShadows{
     {.name = "visibility_fields/traced_shadows",
      .version = 1,
      .summary = "Soft shadows by the same rays as from visibility fields, traced on the GPU",
-     .source = "Gaitatzes 2012, section 4.7.2 (MT-01; BL-02 without its grid)",
+     .source = "Gaitatzes 2012, section 4.7.2 (MT-01, BL-02)",
      .product = ProductKind::Visibility,
      .needs = {"casters", "rectangular_light"},
      .reference = true,

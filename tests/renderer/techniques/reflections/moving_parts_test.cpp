@@ -63,6 +63,10 @@ TEST_F(MovingParts, TechniquesThatFollowThemGiveTheMovedState) {
                    {{"tessellation", std::string("even")},
                     {"tessellation.segments", int64_t{3}},
                     {"invalid", std::string("drop")}});
+  // A finite map's radius is a share of the scene's diagonal, which here covers wherever parts move.
+  for (const char* lookup : {"infinite", "depth"})
+    expectMovedState(scene, "reflections/environment_map", {{"lookup", std::string(lookup)}});
+  expectMovedState(scene, "reflections/screen_space", {});
   expectMovedState(scene, "reflections/reference", {{"shading.shadow", true}});
 }
 
@@ -104,6 +108,7 @@ TEST_F(MovingParts, WhatIsMadeOnceIsRefused) {
   const scene::Scene kitchen =
       makeScene("mirrors/kitchen", {{"tessellation", int64_t{6}}, {"motion", std::string("moving")}});
   EXPECT_THROW(render(kitchen, "reflections/vertex_reflection", {}, kSize), Error) << "a mirror that moves";
+  EXPECT_THROW(render(kitchen, "reflections/environment_map", {}, kSize), Error) << "a mirror that moves";
 }
 
 }  // namespace

@@ -160,5 +160,34 @@ TEST_F(RayHierarchyReflection, SamePictureTwice) {
   EXPECT_EQ(render(scene, "reflections/ray_hierarchy", spilling, {96, 72}).product.data, once.data);
 }
 
+/// Where no pair finds room, invocations go down to the rays on the spot. Triangles around everything
+/// meet all 102,400 nodes over 320 x 240 rays, more than the 65,535 rounds that a software renderer's loops
+/// have. None may be lost: rays from a flat mirror to a ceiling that covers all they can meet, of the colour
+/// that ambient light alone gives it.
+TEST_F(RayHierarchyReflection, PairsWithoutRoomMeetAllRaysOfALargePicture) {
+  scene::Scene scene;
+  scene::Material mirror = mirrorMaterial(0.8F);
+  mirror.albedo = glm::vec3(0.0F);
+  scene::addPart(scene, scene::planeGrid(glm::dvec3(0.0), 9.0, 9.0, 1), mirror);
+  scene::addPart(scene, "ceiling", scene::planeGrid(glm::dvec3(0.0, 3.0, 0.0), 90.0, 90.0, 1),
+                 glm::vec3(0.5F));
+  scene::setStillCamera(scene, {glm::dvec3(0.0, 2.0, 0.5), glm::dvec3(0.0), {0.0, 1.0, 0.0}, 40.0});
+  for (const int64_t leaf : {1, 8}) {
+    const Rendered found = render(scene, "reflections/ray_hierarchy",
+                                  {{"traversal.leaf_side", leaf},
+                                   {"traversal.start_nodes", int64_t{1}},
+                                   {"traversal.capacity", int64_t{1}},
+                                   {"shading.ambient", 1.0},
+                                   {"shading.diffuse", 0.0}},
+                                  {320, 240}, true);
+    EXPECT_EQ(found.counter("mirror_rays"), 320 * 240);
+    EXPECT_GT(found.counter("groups_without_room"), 0);
+    size_t lost = 0;
+    for (size_t i = 0; i < found.product.pixels(); ++i)
+      lost += !(std::abs(found.product.data[4 * i] - 0.8F * 0.5F) < 1e-5F);
+    EXPECT_EQ(lost, 0U) << leaf;
+  }
+}
+
 }  // namespace
 }  // namespace limen::techniques

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lists of a multi-cut and what controls its steps. See multi_cut.h.
+#include "renderer/many_lods/many_lods_bindings.h"
+
+layout(std430, binding = kCutListBuffer) buffer List { uvec2 list[]; };
+layout(std430, binding = kCutControlBuffer) buffer Control {
+  CutControl control;
+  CutStep steps[];
+};
+
+uniform uint step_, capacity, leaves;
+
+uint groupsFor(uint count, uint each) { return min((count + each - 1u) / each, uint(kMostCutGroups)); }

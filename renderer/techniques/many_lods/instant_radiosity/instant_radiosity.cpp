@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Instant radiosity with a shadow map for each virtual point light, all of them drawn from cuts of one tree
+// of points (ManyLoDs). Source: Holländer 2013, sections 3.5 and 3.6.1. Projection (stereographic
+// hemispheres), bias, nearest distance and bound of the light are parameters that the thesis leaves open.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+#include "renderer/many_lods/in_place_cuts.h"
+#include "renderer/many_lods/sequential_cuts.h"
+#include "renderer/techniques/many_lods/radiosity.h"
+#include "renderer/techniques/many_lods/scene_tree.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kInPlacePass = "many_lods/in_place";
+
+using ViewCuts =
+    std::variant<many_lods::IncrementalCuts, many_lods::LazyCuts, many_lods::BasicCuts,
+                 many_lods::LiteralCuts, many_lods::InPlaceSettings, many_lods::SequentialSettings>;
+
+/// Of cuts that are kept in a list.
+many_lods::CutMode listed(const ViewCuts& cuts) {
+  return std::visit(
+      [](const auto& form) -> many_lods::CutMode {
+        if constexpr (std::is_convertible_v<decltype(form), many_lods::CutMode>)
+          return form;
+        else
+          return many_lods::BasicCuts{};
+      },
+      cuts);
+}
+
+std::vector<Quantity> radiosityQuantities() {
+  std::vector<Quantity> out = cutQuantities();
+  out.push_back({"stack_entries", "Most nodes on a stack", "", Direction::LowerIsBetter});
+  out.push_back({"stack_bound", "Bound on the nodes on a stack", "", Direction::Neither});
+  out.push_back({"unfinished_groups", "Groups stopped by a software renderer's limit on loops", "",
+                 Direction::LowerIsBetter});
+  return out;
+}
+
+struct InstantRadiositySettings {
+  VirtualLightSettings lights;
+  TreeSettings tree;
+  ViewCuts cuts;
+  CutLimits limits{2.0, 16384};
+  int tilePx = 64;
+  double bias = 3.0;
+  double slopeBias = 1.0;
+  double nearest = 8.0;
+  static const SettingsTable<InstantRadiositySettings>& table() {
+    using S = InstantRadiositySettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::lights),
+        included(&S::tree),
+        {&S::cuts, "cuts", kCutsText, kCutsSource},
+        included(&S::limits),
+        {&S::tilePx,
+         "tile",
+         {4, 512},
+         "px",
+         "Side of a light's shadow map",
+         "Holländer 2013, table 3.3 (32)"},
+        {&S::bias,
+         "bias",
+         {0.0, 64.0},
+         "",
+         "How much nearer to a light than a point its occluders are, radii of leaves"},
+        {&S::slopeBias,
+         "slope_bias",
+         {0.0, 16.0},
+         "px",
+         "And by as many pixels, or nodes of the size allowed if that is more, times 1 + the surface's "
+         "slope"},
+        {&S::nearest,
+         "nearest",
+         {0.0, 64.0},
+         "",
+         "Nodes nearer to a light than this do not occlude, radii of leaves"}};
+    return kTable;
+  }
+};
+
+class InstantRadiosity : public Technique {
+ public:
+  using Settings = InstantRadiositySettings;
+  explicit InstantRadiosity(const InstantRadiositySettings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    tree_.emplace(frame, settings_.tree);
+    lights_.emplace(frame, settings_.lights);
+    const int depth = tree_->tree().depth();
+    if (const auto* inPlace = std::get_if<many_lods::InPlaceSettings>(&settings_.cuts)) {
+      inPlace_.emplace(frame.context(), lights_->count(), depth, *inPlace);
+    } else if (std::holds_alternative<many_lods::SequentialSettings>(settings_.cuts)) {
+      sequential_.emplace(frame.context(), lights_->count(), depth);
+    } else {
+      cut_.emplace(frame.context(), lights_->count(), depth, settings_.limits.capacity(lights_->count()),
+                   listed(settings_.cuts));
+      frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
+    }
+    atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
+                   many_lods::AtlasForm::Depth);
+    radiosity_.emplace(frame, cut_ ? Radiosity::Sight::Atlas : Radiosity::Sight::InPlaceAtlas);
+    frame.passes().setBytesHeld(cut_ ? kSplatPass : kInPlacePass, atlas_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    if (step_ == 0)
+      for (int before = settings_.lights.framesBefore; before > 0; --before) findCuts(frame, -before, false);
+    findCuts(frame, step_++, false);
+    const auto radius = static_cast<float>(tree_->tree().leafRadius());
+    const many_lods::ViewAtlas::Settings discs{.nearest = static_cast<float>(settings_.nearest) * radius};
+    if (inPlace_) {
+      const auto scope = frame.passes().open(kInPlacePass);
+      inPlace_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
+    } else if (sequential_) {
+      const auto scope = frame.passes().open(kInPlacePass);
+      sequential_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
+    } else {
+      const auto scope = frame.passes().open(kSplatPass);
+      atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(), discs);
+    }
+    // Pixels as they are on average over the directions (many_lods::hemisphereView()).
+    const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.limits.epsilonPx, 1.0);
+    radiosity_->shade(frame, *lights_, &*atlas_,
+                      {settings_.bias * double(radius), settings_.slopeBias * pixel},
+                      inPlace_      ? &inPlace_->countsBuffer()
+                      : sequential_ ? &sequential_->countsBuffer()
+                                    : nullptr);
+  }
+
+  const gl::Texture& product() const override { return radiosity_->texture(); }
+
+  /// Of one further step of the light's motion.
+  std::vector<Counter> count(frame::Frame& frame) override {
+    if (sequential_) {
+      const many_lods::InPlaceCounts counts = sequential_->counts();
+      return {{"cut_nodes", double(counts.drawn)},
+              {"cut_nodes_per_view", double(counts.drawn) / lights_->count()},
+              {"refused_splits", 0.0},
+              {"unfinished_groups", double(counts.unfinished)},
+              {"tree_build_ms", tree_->buildMs()}};
+    }
+    if (inPlace_) {
+      const many_lods::InPlaceCounts counts = inPlace_->counts();
+      return {{"cut_nodes", double(counts.drawn)},
+              {"cut_nodes_per_view", double(counts.drawn) / lights_->count()},
+              {"refused_splits", double(counts.refused)},
+              {"stack_entries", double(counts.deepest)},
+              {"stack_bound", double(inPlace_->stackBound())},
+              {"unfinished_groups", double(counts.unfinished)},
+              {"tree_build_ms", tree_->buildMs()}};
+    }
+    findCuts(frame, step_++, true);
+    return cutCounters(cut_->control(), lights_->count(), *tree_);
+  }
+
+ private:
+  void findCuts(frame::Frame& frame, int step, bool counting) {
+    tree_->update(frame);
+    lights_->make(frame, step, settings_.tilePx, settings_.limits.epsilonPx,
+                  double(tree_->tree().leafRadius()));
+    if (!cut_) return;
+    const auto scope = frame.passes().open(kCutsPass);
+    cut_->update(tree_->tree().nodes(), lights_->views(), counting);
+  }
+
+  InstantRadiositySettings settings_;
+  int step_ = 0;
+  std::optional<SceneTree> tree_;
+  std::optional<VirtualLights> lights_;
+  // One of these.
+  std::optional<many_lods::MultiCut> cut_;
+  std::optional<many_lods::InPlaceCuts> inPlace_;
+  std::optional<many_lods::SequentialCuts> sequential_;
+  std::optional<many_lods::ViewAtlas> atlas_;
+  std::optional<Radiosity> radiosity_;
+};
+
+const RegisteredTechnique<InstantRadiosity> kInstantRadiosityRegistered{
+    {.name = "many_lods/instant_radiosity",
+     .version = 1,
+     .summary =
+         "One bounce of light by virtual point lights, their shadow maps drawn from cuts for all of them",
+     .source = "Holländer 2013, sections 3.5 and 3.6.1 (HOL-25)",
+     .product = ProductKind::Colour,
+     .needs = {"area_light"},
+     .counters = radiosityQuantities(),
+     .effort = "levels"}};
+
+}  // namespace
+}  // namespace limen::techniques

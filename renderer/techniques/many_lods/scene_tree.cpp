@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/many_lods/scene_tree.h"
+
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <string>
+
+#include "experiments/base/error.h"
+#include "renderer/frame/surface_point.h"
+#include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
+
+namespace limen::techniques {
+namespace {
+
+gl::ShaderDefines leafDefines(const frame::ShadedSetting& shading, const frame::Frame& frame) {
+  gl::ShaderDefines defines = frame::shadingDefines(shading, frame);
+  defines.merge(frame::surfaceDefines(frame, shading.smoothNormals));
+  defines.erase("SHADOW");
+  return defines;
+}
+
+}  // namespace
+
+const SettingsTable<TreeSettings>& TreeSettings::table() {
+  using S = TreeSettings;
+  static const SettingsTable<S> kTable = {
+      {&S::levels,
+       "levels",
+       {4, 21},
+       "",
+       "Levels of the tree below its root: 2^levels points",
+       "Holländer 2013, section 3.5.3 (n = 2^d; 2^19 to 2^21)"},
+      {&S::leafScale,
+       "leaf_scale",
+       {0.5, 8.0},
+       "",
+       "Radius of points over that of a disc of the area that each stands for; larger closes holes",
+       "Holländer 2013, section 3.5.3 (a radius from the density; the factor is not given)"},
+      {&S::seed, "seed", {0, 1000000}, "", "Seed of the points' places"},
+      {&S::update, "update", "Bring the tree up to date in each frame even if nothing moves",
+       "Holländer 2013, section 3.5.3"}};
+  return kTable;
+}
+
+const SettingsTable<CutLimits>& CutLimits::table() {
+  using S = CutLimits;
+  static const SettingsTable<S> kTable = {
+      {&S::epsilonPx,
+       "epsilon",
+       {0.25, 64.0},
+       "px",
+       "Diameter on the screen below which a node is fine enough",
+       "Holländer 2013, table 3.2 (1, 2 and 4)"},
+      {&S::room,
+       "room",
+       {1, 4194304},
+       "",
+       "Nodes that a cut may have on average over the views; splits beyond are not done, and counted",
+       "Holländer 2013, section 3.7.2 (worst case: views x leaves)"}};
+  return kTable;
+}
+
+uint32_t CutLimits::capacity(uint32_t views) const {
+  const int64_t entries = room * views;
+  if (entries > int64_t{1} << 31)
+    throw Error("cuts of " + std::to_string(views) + " views with " + std::to_string(room) +
+                    " nodes each are more than lists hold",
+                "room", "lower the room or the number of views");
+  return static_cast<uint32_t>(entries);
+}
+
+SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings) : settings_(settings) {
+  const auto start = std::chrono::steady_clock::now();
+  const scene::Scene& scene = frame.scene();
+  const many_lods::SphereTree tree =
+      many_lods::buildSphereTree(scene.mesh.positions, scene.mesh.triangles, frame.gpuScene().anchor(),
+                                 {settings.levels, settings.leafScale, static_cast<uint64_t>(settings.seed)});
+  buildMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  tree_.emplace(frame.context(), tree);
+  frame.passes().setBytesHeld(kUpdatePass, tree_->bytes());
+}
+
+void SceneTree::update(frame::Frame& frame) const {
+  if (!settings_.update && frame.scene().motions.empty()) return;
+  const auto scope = frame.passes().open(kUpdatePass);
+  tree_->update(frame.positions(), frame.gpuScene().indices());
+}
+
+TreeLight::TreeLight(frame::Frame& frame, const many_lods::GpuTree& tree, const frame::ShadedSetting& shading)
+    : shading_(shading),
+      program_(frame.context().programs().compute("renderer/techniques/many_lods/leaf_colours.comp.glsl",
+                                                  leafDefines(shading, frame))),
+      values_(frame.context(), tree.depth()) {
+  frame.passes().setBytesHeld(kLightPass, values_.values().bytes());
+}
+
+void TreeLight::make(frame::Frame& frame, const many_lods::GpuTree& tree) const {
+  const auto scope = frame.passes().open(kLightPass);
+  frame::configureShading(program_, frame, shading_);
+  const uint32_t leaves = 1U << tree.depth();
+  program_.set("leaves", leaves);
+  tree.samples().bindStorage(kLeafSamplesBuffer);
+  values_.values().bindStorage(kLeafColoursBuffer);
+  program_.use();
+  glDispatchCompute((leaves + kLeafColoursGroup - 1) / kLeafColoursGroup, 1, 1);
+  values_.average();
+}
+
+std::vector<Counter> cutCounters(const many_lods::CutControl& control, uint32_t views,
+                                 const SceneTree& tree) {
+  return {{"cut_nodes", double(control.count)},  {"cut_nodes_per_view", double(control.count) / views},
+          {"predicates", double(control.tests)}, {"splits", double(control.splits)},
+          {"merges", double(control.merges)},    {"refused_splits", double(control.refused)},
+          {"tree_build_ms", tree.buildMs()}};
+}
+
+std::vector<Quantity> cutQuantities() {
+  const Direction lower = Direction::LowerIsBetter;
+  return {{"cut_nodes", "Nodes of all cuts", "", lower},
+          {"cut_nodes_per_view", "Nodes of a cut", "", lower},
+          {"predicates", "Nodes tested in a frame", "", lower},
+          {"splits", "Nodes split in a frame", "", lower},
+          {"merges", "Pairs merged in a frame", "", lower},
+          {"refused_splits", "Splits in a frame that the list had no room for", "", lower},
+          {"tree_build_ms", "Time to build the tree, once, on the CPU", "ms", lower}};
+}
+
+}  // namespace limen::techniques

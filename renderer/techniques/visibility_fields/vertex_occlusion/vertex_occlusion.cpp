@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ambient occlusion of vertices from visibility fields on the CPU. Source: Gaitatzes 2012, section 4.6.1,
+// Fig. 35 and Table 1.
+#include "experiments/base/error.h"
+#include "renderer/techniques/visibility_fields/vertex_occlusion/vertex_technique.h"
+#include "renderer/visibility_fields/cpu_field.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr double kMostBytes = 4.0 * (1 << 30);
+
+struct VertexFieldSettings {
+  VertexRays rays;
+  visibility_fields::FieldForm form;
+  static const SettingsTable<VertexFieldSettings>& table() {
+    using S = VertexFieldSettings;
+    static const SettingsTable<S> kTable = {included(&S::rays), included(&S::form)};
+    return kTable;
+  }
+};
+
+class VertexFieldOcclusion : public VertexTechnique {
+ public:
+  using Settings = VertexFieldSettings;
+  explicit VertexFieldOcclusion(const Settings& settings)
+      : VertexTechnique(settings.rays, "visibility_fields/vertex_occlusion"), form_(settings.form) {}
+
+ protected:
+  int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
+    const double bytes = 4.0 * double(objects.size()) * form_.positions * form_.directions * form_.directions;
+    if (bytes > kMostBytes)
+      throw Error("fields of " + std::to_string(objects.size()) + " objects take " +
+                      std::to_string(static_cast<int64_t>(bytes)) + " bytes of main memory",
+                  "directions", "store fewer positions or directions");
+    fields_.clear();
+    slack_ = 0.5 * visibility_fields::fieldSpacing(form_);
+    for (const visibility_fields::RigidObject& object : objects) fields_.emplace_back(object, form_);
+    int64_t held = 0;
+    for (const visibility_fields::CpuField& field : fields_) held += 4 * field.rayCount();
+    return held;
+  }
+  void distances(glm::dvec3 origin, std::span<const glm::dvec3> directions, double,
+                 std::span<double> out) const override {
+    std::fill(out.begin(), out.end(), -1.0);
+    for (const visibility_fields::CpuField& field : fields_)
+      for (size_t i = 0; i < directions.size(); ++i) {
+        const double distance = field.distance(origin, directions[i], slack_);
+        if (distance >= 0.0 && (out[i] < 0.0 || distance < out[i])) out[i] = distance;
+      }
+  }
+  void addCounters(std::vector<Counter>& counters) const override {
+    double rays = 0.0;
+    for (const visibility_fields::CpuField& field : fields_) rays += double(field.rayCount());
+    counters.push_back({"field_rays", rays});
+    counters.push_back({"field_objects", double(fields_.size())});
+  }
+
+ private:
+  visibility_fields::FieldForm form_;
+  std::vector<visibility_fields::CpuField> fields_;
+  double slack_ = 0.0;  ///< diameters
+};
+
+std::vector<Quantity> vertexFieldQuantities() {
+  std::vector<Quantity> out = VertexTechnique::quantities();
+  for (const Quantity& quantity : FieldReader::quantities())
+    if (quantity.name == "field_rays" || quantity.name == "field_objects") out.push_back(quantity);
+  return out;
+}
+
+const RegisteredTechnique<VertexFieldOcclusion> kVertexFieldOcclusion{
+    {.name = "visibility_fields/vertex_occlusion",
+     .version = 1,
+     .summary = "Ambient occlusion of vertices that only receive, from visibility fields on the CPU",
+     .source = "Gaitatzes 2012, section 4.6.1 (VF-15, VF-07)",
+     .product = ProductKind::Colour,
+     .needs = {"casters"},
+     .onCpu = true,
+     .counters = vertexFieldQuantities(),
+     .effort = "rays"}};
+
+}  // namespace
+}  // namespace limen::techniques

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/many_lods/multi_cut.h"
+
+#include "experiments/base/error.h"
+
+#include "renderer/many_lods/gpu_tree.h"
+#include "tests/renderer/many_lods/many_lods_fixture.h"
+
+namespace limen::many_lods {
+namespace {
+
+class MultiCuts : public gl::GlTest {
+ protected:
+  static constexpr int kDepth = 11;
+  static const SphereTree& tree() {
+    static const SphereTree kTree = treeOf(bumpyBalls(), kDepth);
+    return kTree;
+  }
+  static std::vector<CutView> anyViews(uint32_t count, uint32_t seed, double epsilonPx = 2.0) {
+    std::mt19937 random(seed);
+    std::vector<CutView> out;
+    for (uint32_t i = 0; i < count; ++i) out.push_back(anyView(random, tree(), epsilonPx));
+    return out;
+  }
+  /// A little elsewhere; every tenth somewhere else altogether.
+  static std::vector<CutView> moved(std::vector<CutView> views, uint32_t seed, double by) {
+    std::mt19937 random(seed);
+    for (CutView& view : views) {
+      if (random() % 10 == 0) {
+        view = anyView(random, tree(), 2.0);
+      } else {
+        const glm::vec3 step(anyDirection(random) * by);
+        view.eye = glm::vec4(glm::vec3(view.eye) + step, view.eye.w);
+      }
+    }
+    return views;
+  }
+  /// From the root, on the CPU, of all views.
+  static std::vector<glm::uvec2> expected(const std::vector<CutView>& views) {
+    std::vector<glm::uvec2> out;
+    for (uint32_t i = 0; i < views.size(); ++i)
+      for (const uint32_t node : recursiveCut(tree().spheres, kDepth, views[i])) out.emplace_back(node, i);
+    return out;
+  }
+  static void expectWhole(const std::vector<glm::uvec2>& list, uint32_t views) {
+    const CutFaults faults = faultsOf(list, views, kDepth);
+    EXPECT_EQ(faults.uncovered, 0U);
+    EXPECT_EQ(faults.doubled, 0U);
+  }
+};
+
+TEST_F(MultiCuts, FaultsAreFound) {
+  EXPECT_EQ(faultsOf({{2, 0}, {3, 0}}, 1, 3).uncovered, 0U);
+  EXPECT_EQ(faultsOf({{2, 0}, {6, 0}}, 1, 3).uncovered, 2U);
+  EXPECT_EQ(faultsOf({{1, 0}, {6, 0}, {15, 0}}, 1, 3).doubled, 3U);
+  EXPECT_EQ(faultsOf({{1, 1}}, 2, 3).uncovered, 8U);
+}
+
+TEST_F(MultiCuts, OfThousandsOfViewsEqualTheRecursion) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 2500;
+  MultiCut basic(context(), kViews, kDepth, 1U << 20, BasicCuts{});
+  MultiCut incremental(context(), kViews, kDepth, 1U << 20, IncrementalCuts{});
+  std::vector<CutView> views = anyViews(kViews, 1);
+  for (int frame = 0; frame < 4; ++frame) {
+    const gl::Buffer onGpuViews(views);
+    basic.update(onGpu.nodes(), onGpuViews, true);
+    incremental.update(onGpu.nodes(), onGpuViews, true);
+    const std::vector<glm::uvec2> right = expected(views);
+    ASSERT_GT(right.size(), 10 * kViews);
+    ASSERT_EQ(basic.list(), right) << "frame " << frame;
+    ASSERT_EQ(incremental.list(), right) << "frame " << frame;
+    EXPECT_EQ(basic.control().refused + incremental.control().refused, 0U);
+    // Frame 0 starts from the root as well.
+    if (frame > 0) {
+      EXPECT_LT(incremental.control().tests, basic.control().tests * 2);
+    }
+    views = moved(views, 100 + uint32_t(frame), frame < 2 ? 0.05 : 1.0);
+  }
+}
+
+TEST_F(MultiCuts, LazyCutsAreWholeInEveryFrameAndArriveAtRest) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 300;
+  for (const int edges : {1, 2, 4}) {
+    MultiCut lazy(context(), kViews, kDepth, 1U << 18, LazyCuts{edges});
+    std::vector<CutView> views = anyViews(kViews, 2);
+    for (int frame = 0; frame < 8; ++frame) {
+      lazy.update(onGpu.nodes(), gl::Buffer(views));
+      expectWhole(lazy.list(), kViews);
+      views = moved(views, 200 + uint32_t(frame), 0.5);
+    }
+    EXPECT_NE(lazy.list(), expected(views));
+    // No node is farther from where it belongs than the tree is high.
+    for (int frame = 0; frame < kDepth + 1; ++frame) lazy.update(onGpu.nodes(), gl::Buffer(views));
+    EXPECT_EQ(lazy.list(), expected(views)) << edges << " edges";
+  }
+}
+
+// As the specification's simulation has it: most frames of the printed listing with one edge are broken.
+TEST_F(MultiCuts, TheListingAsPrintedBreaksTheCut) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 50;
+  MultiCut literal(context(), kViews, kDepth, 1U << 18, LiteralCuts{1});
+  std::vector<CutView> views = anyViews(kViews, 3);
+  int broken = 0;
+  for (int frame = 0; frame < 10; ++frame) {
+    literal.update(onGpu.nodes(), gl::Buffer(views));
+    const CutFaults faults = faultsOf(literal.list(), kViews, kDepth);
+    broken += faults.uncovered + faults.doubled > 0 ? 1 : 0;
+    views = moved(views, 300 + uint32_t(frame), 1.0);
+  }
+  EXPECT_GE(broken, 5);
+}
+
+TEST_F(MultiCuts, OverfullListsLoseNothing) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 100;
+  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2})})
+    for (const uint32_t capacity : {kViews, 1024U, 5000U}) {
+      MultiCut cut(context(), kViews, kDepth, capacity, mode);
+      std::vector<CutView> views = anyViews(kViews, 4);
+      for (int frame = 0; frame < 5; ++frame) {
+        cut.update(onGpu.nodes(), gl::Buffer(views));
+        const std::vector<glm::uvec2> list = cut.list();
+        ASSERT_LE(list.size(), capacity);
+        expectWhole(list, kViews);
+        ASSERT_GT(expected(views).size(), capacity);
+        EXPECT_GT(cut.control().refused, 0U);
+        views = moved(views, 400 + uint32_t(frame), 0.5);
+      }
+    }
+}
+
+// Room is used up: as many splits are refused as there is no room for, no more.
+TEST_F(MultiCuts, OverfullListsAreFull) {
+  const GpuTree onGpu(context(), tree());
+  MultiCut cut(context(), 100, kDepth, 5000, BasicCuts{});
+  cut.update(onGpu.nodes(), gl::Buffer(anyViews(100, 4)));
+  EXPECT_EQ(cut.list().size(), 5000U);
+}
+
+TEST_F(MultiCuts, AfterAnOverflowTheRightCutComesBack) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 100;
+  for (const CutMode& mode : {CutMode(IncrementalCuts{}), CutMode(LazyCuts{1})}) {
+    MultiCut cut(context(), kViews, kDepth, 6000, mode);
+    const std::vector<CutView> fine = anyViews(kViews, 4), coarse = anyViews(kViews, 4, 64.0);
+    ASSERT_GT(expected(fine).size(), 6000U);
+    const std::vector<glm::uvec2> right = expected(coarse);
+    ASSERT_LT(right.size(), 5000U);
+    cut.update(onGpu.nodes(), gl::Buffer(fine));
+    for (int frame = 0; frame < 2 * kDepth; ++frame) cut.update(onGpu.nodes(), gl::Buffer(coarse));
+    EXPECT_EQ(cut.list(), right);
+  }
+}
+
+TEST_F(MultiCuts, SmallestTreesAndOneView) {
+  for (const int depth : {1, 2, 3, 4}) {
+    const SphereTree small = treeOf(bumpyBalls(1, 4), depth);
+    const GpuTree onGpu(context(), small);
+    for (const double distance : {0.1, 30.0, 1e4}) {
+      const CutView view = hemisphereView({0, 0, distance}, {0, 0, -1}, 64, 1.0, 100.0);
+      MultiCut cut(context(), 1, depth, 1024, BasicCuts{});
+      cut.update(onGpu.nodes(), gl::Buffer(std::vector<CutView>{view}));
+      std::vector<uint32_t> nodes;
+      for (const glm::uvec2 entry : cut.list()) nodes.push_back(entry.x);
+      EXPECT_EQ(nodes, recursiveCut(small.spheres, depth, view)) << depth << ", " << distance;
+    }
+  }
+}
+
+TEST_F(MultiCuts, RefuseListsWithoutRoomForTheRoots) {
+  EXPECT_THROW(MultiCut(context(), 10, kDepth, 9, BasicCuts{}), Error);
+}
+
+}  // namespace
+}  // namespace limen::many_lods
