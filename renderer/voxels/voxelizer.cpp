@@ -10,9 +10,9 @@
 namespace limen::voxels {
 namespace {
 
-/// Groups that share large triangles where there are few triangles: about four times what an NVIDIA H200's
-/// 132 multiprocessors take, and at most this many of one triangle.
-constexpr uint32_t kSharingGroups = 512, kMostLayers = 64;
+/// Groups that share large triangles: some sixty times what an NVIDIA H200 has multiprocessors, as most find
+/// nothing to share and end; at most this many layers of them.
+constexpr uint32_t kSharingGroups = 8192, kMostLayers = 64;
 
 gl::ShaderDefines voxelizerDefines(Coverage coverage, const Volume& into) {
   gl::ShaderDefines defines = into.defines();
