@@ -152,7 +152,7 @@ TEST_F(LightPaths, TracersAgreeWithinTheirStandardErrors) {
     double noise;  ///< of the picture's mean, share of it: what bias this test would see
   };
   const Case cases[] = {
-      {"cornell_box", {}},
+      {"cornell_box", {}, 0.01},
       {"mirrors/room", {}, 0.01},
       {"global_illumination/two_rooms", {{"opening", 0.4}}, 0.01},
       {"global_illumination/two_rooms", {{"opening", 1.0}, {"emitter", 5.0}, {"lamp", false}}, 0.04}};
