@@ -3,6 +3,7 @@
 // all sides, with a coloured wall, divided, with a slanted wall. Their surfaces face inwards.
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
@@ -55,10 +56,19 @@ const RegisteredScene<ClosedBoxSettings> kClosedBoxRegistered{
      .source = "uniform radiosity; the bench's own"},
     buildClosedBox};
 
-enum class RoomLight { Lamp, Emitters };
-constexpr EnumNames<RoomLight, 2> enumNames(RoomLight) {
-  return {{{{RoomLight::Lamp, "lamp"}, {RoomLight::Emitters, "emitters"}}}};
-}
+struct LampInRoom {
+  static constexpr const char *kKind = "lamp", *kSummary = "the lamp below the ceiling";
+};
+struct PanelInRoom {
+  static constexpr const char *kKind = "emitters", *kSummary = "a panel there that emits";
+  double emission = 2.0;
+  static const SettingsTable<PanelInRoom>& table() {
+    using S = PanelInRoom;
+    static const SettingsTable<S> kTable = {
+        {&S::emission, "emission", {0.0, 10.0}, "", "Radiance of the panel"}};
+    return kTable;
+  }
+};
 
 constexpr double kHalfWidth = 1.5, kHeight = 2.5, kHalfDepth = 1.5;
 constexpr glm::vec3 kPlaster{0.7F};
@@ -80,13 +90,10 @@ void addSides(Scene& scene, const Material& left, const Material& right) {
 }
 
 struct ColouredRoomSettings {
-  RoomLight lit = RoomLight::Lamp;
-  double emission = 2.0;
+  std::variant<LampInRoom, PanelInRoom> lit;
   static const SettingsTable<ColouredRoomSettings>& table() {
     using S = ColouredRoomSettings;
-    static const SettingsTable<S> kTable = {
-        {&S::lit, "lit_by", "The lamp below the ceiling, or a panel there that emits"},
-        {&S::emission, "emission", {0.0, 10.0}, "", "Radiance of the panel"}};
+    static const SettingsTable<S> kTable = {{&S::lit, "lit_by", "What lights the room"}};
     return kTable;
   }
 };
@@ -97,9 +104,9 @@ Scene buildColouredRoom(const ColouredRoomSettings& settings) {
   addSides(scene, surfaceOf("left", {0.7F, 0.1F, 0.1F}), surfaceOf("right", kPlaster));
   addPart(scene, "block", box({0.1, 0.0, -0.9}, {0.8, 1.1, -0.2}), kPlaster);
   addPart(scene, "low block", box({-0.9, 0.0, -0.1}, {-0.2, 0.5, 0.6}), kPlaster);
-  if (settings.lit == RoomLight::Emitters)
+  if (const auto* panel = std::get_if<PanelInRoom>(&settings.lit))
     addPart(scene, card({0.0, kHeight - 0.05, 0.0}, {0.5, 0.0, 0.0}, {0.0, 0.0, 0.5}),
-            surfaceOf("panel", glm::vec3(0.0F), settings.emission));
+            surfaceOf("panel", glm::vec3(0.0F), panel->emission));
   else
     scene.lights = {lightTowards({0.3, kHeight - 0.2, 0.3}, {0.3, 0.0, 0.3}, glm::dvec2(0.3))};
   return scene;

@@ -33,7 +33,8 @@ void expectSound(const Scene& scene) {
   }
   EXPECT_EQ(next, scene.mesh.triangles.size());
   EXPECT_FALSE(scene.casterBounds().empty());
-  ASSERT_FALSE(scene.lights.empty());
+  // Rooms without a lamp are lit by what emits, or dark.
+  ASSERT_TRUE(!scene.lights.empty() || scene.name.rfind("global_illumination/", 0) == 0) << scene.name;
   for (const AreaLight& light : scene.lights) {
     EXPECT_NO_THROW(checkLight(light, "test"));
     EXPECT_GT(light.area(), 0.0);
