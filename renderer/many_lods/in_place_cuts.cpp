@@ -86,23 +86,28 @@ InPlaceCuts::InPlaceCuts(gl::Context& context, uint32_t views, int depth, const 
       counts_(int64_t{sizeof(InPlaceCounts)}, nullptr),
       program_(inPlaceProgram(context, stack_, settings)) {}
 
-void InPlaceCuts::draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
-                       const ViewAtlas::Settings& settings) const {
+void beginInPlace(const gl::Program& program, const gl::Buffer& nodes, const gl::Buffer& views,
+                  const ViewAtlas& atlas, const ViewAtlas::Settings& settings, const gl::Buffer& counts) {
   atlas.clear();
-  counts_.clearUint(0);
+  counts.clearUint(0);
   nodes.bindStorage(kCutNodesBuffer);
   views.bindStorage(kCutViewsBuffer);
   atlas.depths().bindStorage(kSplatDepthsBuffer);
-  counts_.bindStorage(kInPlaceCountsBuffer);
+  counts.bindStorage(kInPlaceCountsBuffer);
+  program.set("tilePx", atlas.tilePx());
+  program.set("nearest", settings.nearest);
+  program.set("radiusScale", settings.radiusScale);
+  program.use();
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void InPlaceCuts::draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
+                       const ViewAtlas::Settings& settings) const {
   const auto perGroup = static_cast<uint32_t>(settings_.viewsPerGroup);
   program_.set("leaves", leaves_);
   program_.set("viewCount", views_);
   program_.set("viewsPerGroup", perGroup);
-  program_.set("tilePx", atlas.tilePx());
-  program_.set("nearest", settings.nearest);
-  program_.set("radiusScale", settings.radiusScale);
-  program_.use();
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  beginInPlace(program_, nodes, views, atlas, settings, counts_);
   glDispatchCompute((views_ + perGroup - 1) / perGroup, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }

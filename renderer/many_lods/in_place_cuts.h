@@ -32,6 +32,11 @@ struct InPlaceSettings {
   void check() const;
 };
 
+/// Empties atlas and counts, and binds what programs need that draw cuts where they find them. Storage
+/// buffers as in many_lods_bindings.h.
+void beginInPlace(const gl::Program& program, const gl::Buffer& nodes, const gl::Buffer& views,
+                  const ViewAtlas& atlas, const ViewAtlas::Settings& settings, const gl::Buffer& counts);
+
 /// Cuts that are drawn where they are found: a group holds the nodes of a few views that are still to be
 /// looked at on a stack in shared memory, takes as many as it has finders from its top, pushes the children
 /// of those that are too coarse in their order, and draws the others when enough have come together. No list

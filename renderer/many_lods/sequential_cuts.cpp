@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include "renderer/many_lods/in_place_cuts.h"
+
 namespace limen::many_lods {
 
 const SettingsTable<SequentialSettings>& SequentialSettings::table() {
@@ -18,19 +20,9 @@ SequentialCuts::SequentialCuts(gl::Context& context, uint32_t views, int depth)
 
 void SequentialCuts::draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
                           const ViewAtlas::Settings& settings) const {
-  atlas.clear();
-  counts_.clearUint(0);
-  nodes.bindStorage(kCutNodesBuffer);
-  views.bindStorage(kCutViewsBuffer);
-  atlas.depths().bindStorage(kSplatDepthsBuffer);
-  counts_.bindStorage(kInPlaceCountsBuffer);
   program_.set("leaves", leaves_);
   program_.set("viewCount", views_);
-  program_.set("tilePx", atlas.tilePx());
-  program_.set("nearest", settings.nearest);
-  program_.set("radiusScale", settings.radiusScale);
-  program_.use();
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  beginInPlace(program_, nodes, views, atlas, settings, counts_);
   glDispatchCompute((views_ + kSequentialGroup - 1) / kSequentialGroup, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
