@@ -84,4 +84,10 @@ class Executor {
   virtual nlohmann::json account() const { return nlohmann::json::object(); }
 };
 
+/// A device that sweeps can run on.
+struct SweepDevice {
+  std::string name;       ///< as stores name it; "": it cannot be used
+  bool software = false;  ///< a CPU renders
+};
+
 }  // namespace limen::experiments

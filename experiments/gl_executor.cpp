@@ -104,12 +104,12 @@ store::Measurement measurementOf(const techniques::Counter& counter, const techn
 
 class GlExecutor : public Executor {
  public:
-  explicit GlExecutor(const std::string& folder)
+  GlExecutor(const std::string& folder, const std::string& references)
       : folder_(folder),
         context_(gl::createHeadlessContext()),
         metricGpu_(*context_),
         clock_(*context_),
-        references_(folder + "/references") {
+        references_(references) {
     const gl::DeviceInfo& device = context_->device();
     environment_.device = device.line();
     environment_.software = device.software;
@@ -428,16 +428,15 @@ class GlExecutor : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder) {
-  return std::make_unique<GlExecutor>(resultsFolder);
+std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder,
+                                         const std::string& referencesFolder) {
+  return std::make_unique<GlExecutor>(resultsFolder, referencesFolder);
 }
 
-std::vector<std::string> listDevices() {
-  std::vector<std::string> out;
+std::vector<SweepDevice> listDevices() {
+  std::vector<SweepDevice> out;
   for (const gl::DeviceInfo& device : gl::listHeadlessDevices())
-    out.push_back(std::to_string(out.size()) + "  " +
-                  (device.renderer.empty() ? "(no OpenGL 4.5)"
-                                           : device.line() + (device.software ? ", software renderer" : "")));
+    out.push_back({device.renderer.empty() ? "" : device.line(), device.software});
   return out;
 }
 

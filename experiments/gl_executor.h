@@ -10,10 +10,11 @@
 namespace limen::experiments {
 
 /// Renders runs in a headless OpenGL context. Pictures go to `resultsFolder`/artefacts, reference products to
-/// `resultsFolder`/references. Throws Error if there is no OpenGL 4.5.
-std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder);
+/// `referencesFolder`. Throws Error if there is no OpenGL 4.5.
+std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder,
+                                         const std::string& referencesFolder);
 
-/// "0  NVIDIA H200 (OpenGL ...)": what --device can choose, by index. Throws Error without EGL.
-std::vector<std::string> listDevices();
+/// What --device can choose, by index. Throws Error without EGL.
+std::vector<SweepDevice> listDevices();
 
 }  // namespace limen::experiments

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "experiments/base/error.h"
 #include "experiments/base/interrupt.h"
@@ -34,7 +35,7 @@ class Runner {
     for (const auto& [begin, end] : plan_.groups) {
       std::vector<size_t>& group = groups.emplace_back();
       for (size_t i = begin; i < end; ++i) {
-        if (!mine[i]) continue;
+        if (!mine[i] || (options_.only && options_.only->count(plan_.runs[i].key) == 0)) continue;
         ++tally_.planned;
         if (results_.isDone(plan_.runs[i].key, device_))
           ++tally_.skipped;
@@ -51,6 +52,9 @@ class Runner {
         [path = results_.path()] { store::Store(path, store::Access::ReadWrite).releaseClaims(); });
     try {
       std::erase_if(groups, [](const std::vector<size_t>& group) { return group.empty(); });
+      std::rotate(groups.begin(),
+                  groups.begin() + static_cast<long>(options_.begin * static_cast<double>(groups.size())),
+                  groups.end());
       for (size_t i = 0; i < groups.size(); ++i) {
         if (i + 1 < groups.size()) announced_ = groups[i + 1].front();
         measureGroup(groups[i]);
@@ -231,7 +235,8 @@ SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
   return Runner(plan, results, executor, hostFacts, options, observer).run();
 }
 
-int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results) {
+int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results,
+                        const std::unordered_set<std::string>* only) {
   store::Experiment experiment;
   experiment.hash = descriptor.hash;
   experiment.path = descriptor.path;
@@ -244,7 +249,8 @@ int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::S
   if (!plan.published.empty()) experiment.report["published"] = plan.published;
   std::vector<store::PlanEntry> entries;
   for (const PlannedRun& run : plan.runs)
-    entries.push_back({run.key, run.technique.name, run.scene.name, run.label});
+    if (!only || only->count(run.key) > 0)
+      entries.push_back({run.key, run.technique.name, run.scene.name, run.label});
   return results.putExperiment(experiment, entries, plan.descriptions);
 }
 
@@ -255,8 +261,12 @@ std::vector<store::Expectation> evaluateExpectations(const Descriptor& descripto
   const auto resolved = resolve(descriptor.expectations, plan.runs, problems);
   const std::vector<store::Run> rows = results.runs(experiment);
   std::map<std::string, const store::Run*> measured;
-  for (const store::Run& row : rows)
-    if (row.device == device) measured[row.key] = &row;
+  for (const store::Run& row : rows) {
+    if (!device.empty() && row.device != device) continue;
+    const store::Run*& best = measured[row.key];
+    const auto rank = [](const store::Run& one) { return std::pair(one.status == "done", one.finished); };
+    if (!best || rank(*best) < rank(row)) best = &row;
+  }
   std::vector<store::Expectation> evaluated = evaluate(resolved, plan.runs, measured);
   results.putExpectations(experiment, evaluated);
   return evaluated;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/descriptor.h"
@@ -13,10 +14,14 @@
 namespace limen::experiments {
 
 struct RunnerOptions {
-  int shardIndex = 1, shardCount = 1;  ///< only runs of this shard; index from 1
-  bool failFast = false;               ///< stop after the batch with the first failed run
-  bool retryDied = false;              ///< also runs whose process died twice
-  double pollSeconds = 0.2;            ///< between checks of runs held by another sweep
+  int shardIndex = 1, shardCount = 1;                     ///< only runs of this shard; index from 1
+  bool failFast = false;                                  ///< stop after the batch with the first failed run
+  bool retryDied = false;                                 ///< also runs whose process died twice
+  double pollSeconds = 0.2;                               ///< between checks of runs held by another sweep
+  const std::unordered_set<std::string>* only = nullptr;  ///< keys; null: all
+  /// Where to begin, as a share of the plan: tasks that begin at different scenes do not all wait for the
+  /// same reference. From there on to the end, then what is before.
+  double begin = 0.0;
 };
 
 /// Notified of progress while a sweep runs. Counts refer to the shard.
@@ -51,11 +56,12 @@ SweepTally runSweep(const Plan& plan, store::Store& results, Executor& executor,
                     const nlohmann::json& hostFacts, const RunnerOptions& options, SweepObserver& observer);
 
 /// Stores the experiment, its whole plan (all shards, so that merged stores know what is missing) and the
-/// descriptions of its names. Returns its id.
-int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results);
+/// descriptions of its names; or of the plan only some runs, where another store has all. Returns its id.
+int64_t enterExperiment(const Descriptor& descriptor, const Plan& plan, store::Store& results,
+                        const std::unordered_set<std::string>* only = nullptr);
 
-/// Evaluates the descriptor's expectations over everything in the store from this plan for `device`, and
-/// stores the result.
+/// Evaluates the descriptor's expectations over everything in the store from this plan for `device` ("":
+/// whichever was measured last, done before failed), and stores the result.
 std::vector<store::Expectation> evaluateExpectations(const Descriptor& descriptor, const Plan& plan,
                                                      int64_t experiment, const std::string& device,
                                                      store::Store& results);

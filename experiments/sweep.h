@@ -15,11 +15,13 @@ namespace limen::experiments {
 struct SweepProgram {
   std::string name;
   std::function<Catalogue()> catalogue;
-  /// Makes the executor whose artefacts go below `resultsFolder`. Called only when there is a sweep to run;
-  /// throws Error.
-  std::function<std::unique_ptr<Executor>(const std::string& resultsFolder)> makeExecutor;
-  /// One line for each device that --device can choose; null: there are none.
-  std::function<std::vector<std::string>()> devices = {};
+  /// Makes the executor whose artefacts go below `resultsFolder` and whose reference products are kept in
+  /// `referencesFolder`. Called only when there is a sweep to run; throws Error.
+  std::function<std::unique_ptr<Executor>(const std::string& resultsFolder,
+                                          const std::string& referencesFolder)>
+      makeExecutor;
+  /// The devices that --device can choose, by their indices; null: there are none.
+  std::function<std::vector<SweepDevice>()> devices = {};
 };
 
 /// The command line of `limen sweep`. Returns the exit code: 0; 1 for failed runs, broken expectations or a

@@ -44,6 +44,8 @@ struct Descriptions {
 
   /// Null if there is none with that name.
   const QuantityRow* quantity(const std::string& name) const;
+
+  friend bool operator==(const Descriptions&, const Descriptions&) = default;
 };
 
 /// What was measured under this name before stores described themselves. For names not in the table the title

@@ -4,12 +4,13 @@
 #include <fstream>
 #include <map>
 #include <system_error>
+#include <unordered_set>
 
+#include "experiments/base/claim_owner.h"
 #include "experiments/base/error.h"
 #include "experiments/base/folder_lock.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/part_file.h"
-#include "experiments/base/process.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {
@@ -83,7 +84,10 @@ bool isWanted(sqlite3* database, const Run& other) {
   Statement find(database, "SELECT status, owner FROM run WHERE key = ? AND device = ?");
   if (!find.bind(other.key, other.device).step()) return true;
   const std::string status = find.text(0);
-  if (status == "running") return isOwnerDead(find.text(1)).value_or(false);
+  if (status == "running") {
+    const OwnerState state = stateOfOwner(find.text(1));
+    return state == OwnerState::Died || state == OwnerState::Ended;
+  }
   return status == "failed" && other.status == "done";
 }
 
@@ -141,14 +145,18 @@ int64_t Store::merge(const Store& other) {
                                    [&](const Experiment& own) { return own.hash == experiment.hash; });
     std::vector<PlanEntry> joined = same == known.end() ? std::vector<PlanEntry>() : plan(same->id);
     const Descriptions ours = same == known.end() ? Descriptions() : readDescriptions(database_, same->id);
-    for (const PlanEntry& entry : other.plan(experiment.id)) {
-      const auto isSame = [&](const PlanEntry& own) { return own.key == entry.key; };
-      if (std::none_of(joined.begin(), joined.end(), isSame)) joined.push_back(entry);
-    }
-    const int64_t id =
-        putExperiment(same == known.end() ? experiment : *same, joined,
-                      joinDescriptions(ours, readDescriptions(other.database_, experiment.id)));
-    putExpectations(id, joinExpectations(expectations(id), other.expectations(experiment.id)));
+    std::unordered_set<std::string> keys;
+    for (const PlanEntry& own : joined) keys.insert(own.key);
+    const size_t before = joined.size();
+    for (const PlanEntry& entry : other.plan(experiment.id))
+      if (keys.insert(entry.key).second) joined.push_back(entry);
+    const Descriptions theirs = readDescriptions(other.database_, experiment.id);
+    const std::vector<Expectation> judged = other.expectations(experiment.id);
+    // Nothing is written where nothing is new: a thousand parts of one sweep are merged one after another.
+    int64_t id = same == known.end() ? 0 : same->id;
+    if (id == 0 || joined.size() > before || !(joinDescriptions(ours, theirs) == ours))
+      id = putExperiment(same == known.end() ? experiment : *same, joined, joinDescriptions(ours, theirs));
+    if (!judged.empty()) putExpectations(id, joinExpectations(expectations(id), judged));
   }
 
   std::vector<Run> candidates;

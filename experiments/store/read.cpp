@@ -247,4 +247,13 @@ std::vector<Run> Store::allRuns(bool withFrameTimes) const {
   return out;
 }
 
+std::vector<RunState> Store::runStates() const {
+  Statement row(database_, "SELECT key, device, status, error, technique, scene, label FROM run ORDER BY id");
+  std::vector<RunState> out;
+  while (row.step())
+    out.push_back(
+        {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5), row.text(6)});
+  return out;
+}
+
 }  // namespace limen::store

@@ -5,10 +5,10 @@
 
 #include <cassert>
 
+#include "experiments/base/claim_owner.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
-#include "experiments/base/process.h"
 #include "experiments/store/rows.h"
 
 namespace limen::store {
@@ -101,7 +101,7 @@ void Store::putExpectations(int64_t experiment, const std::vector<Expectation>& 
 
 Store::Claim Store::claim(const Run& run, double staleSeconds) {
   const WithoutSync withoutSync(database_);
-  const std::string self = processIdentity();
+  const std::string self = claimOwner();
   Transaction transaction(database_, Mode::Write);
   Statement find(
       database_,
@@ -112,9 +112,11 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
     const std::string status = find.text(1), owner = find.text(2);
     if (status == "done") return Claim::AlreadyDone;
     if (status == "running" && owner != self) {
-      const bool dead = isOwnerDead(owner).value_or(find.isNull(3) || find.real(3) > staleSeconds);
-      if (!dead) return Claim::HeldByOther;
-      error = find.text(4).empty() ? kDied : kDiedTwice;
+      const OwnerState state = stateOfOwner(owner);
+      const bool stale = find.isNull(3) || find.real(3) > staleSeconds;
+      if (state == OwnerState::Alive || (state == OwnerState::Unknown && !stale)) return Claim::HeldByOther;
+      error = find.text(4);
+      if (state != OwnerState::Ended) error = error.empty() ? kDied : kDiedTwice;
     }
     // What a failed run left behind is deleted with its row.
     execute(database_, "DELETE FROM run WHERE id = ?", find.integer(0));
@@ -132,7 +134,7 @@ Store::Claim Store::claim(const Run& run, double staleSeconds) {
 int Store::deaths(const std::string& key, const std::string& device) const {
   Statement find(database_,
                  "SELECT error FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
-  if (!find.bind(key, device, processIdentity()).step()) return 0;
+  if (!find.bind(key, device, claimOwner()).step()) return 0;
   const std::string error = find.text(0);
   return error.empty() ? 0 : error == kDied ? 1 : 2;
 }
@@ -150,7 +152,7 @@ void Store::finish(const Run& run) {
   Transaction transaction(database_, Mode::Write);
   Statement find(database_,
                  "SELECT id FROM run WHERE key = ? AND device = ? AND status = 'running' AND owner = ?");
-  if (!find.bind(run.key, run.device, processIdentity()).step())
+  if (!find.bind(run.key, run.device, claimOwner()).step())
     throw Error("run " + run.key + " is no longer held by this process", path_,
                 "another process took it over; start the sweep again, finished runs are kept");
   const int64_t id = find.integer(0);
@@ -171,7 +173,7 @@ void Store::sync() {
 
 void Store::releaseClaims() {
   Transaction transaction(database_, Mode::Write);
-  execute(database_, "DELETE FROM run WHERE status = 'running' AND owner = ?", processIdentity());
+  execute(database_, "DELETE FROM run WHERE status = 'running' AND owner = ?", claimOwner());
   transaction.commit();
 }
 

@@ -73,6 +73,11 @@ struct Run {
   std::vector<Artefact> artefacts;
 };
 
+/// How a run stands, without what it measured.
+struct RunState {
+  std::string key, device, status, error, technique, scene, label;
+};
+
 enum class Access { ReadOnly, ReadWrite };
 
 /// One SQLite file (schema.sql). Write-ahead log, foreign keys on, waits for other writers. Every member
@@ -98,11 +103,12 @@ class Store {
 
   enum class Claim { Claimed, AlreadyDone, HeldByOther };
   /// Claims (run.key, run.device) for this process in one transaction: inserts a 'running' row, or takes over
-  /// a failed one or one whose owner is dead (same host and no such process, or older than `staleSeconds` on
-  /// another host).
+  /// a failed one or one whose owner is dead (stateOfOwner(): same host and no such process, or its job of
+  /// Slurm over or started anew; or, where nobody knows, older than `staleSeconds`).
   Claim claim(const Run& run, double staleSeconds = 3600.0);
   /// How many processes died while they held a run that this process holds now. One that was stopped by a
-  /// signal or an error has given it back.
+  /// signal or an error has given it back; one whose whole job ended is not counted: nothing says that the
+  /// run did it.
   int deaths(const std::string& key, const std::string& device) const;
   /// Whether a run failed with diedTwice().
   bool hasDiedTwice(const std::string& key, const std::string& device) const;
@@ -129,6 +135,7 @@ class Store {
   /// request. A plan entry without a row is absent.
   std::vector<Run> runs(int64_t experiment, bool withFrameTimes = false) const;
   std::vector<Run> allRuns(bool withFrameTimes = false) const;
+  std::vector<RunState> runStates() const;
 
   /// Copies what this store lacks from `other`: finished runs win over failed ones; artefact files are copied
   /// too. Returns the number of runs added.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "experiments/base/hash.h"
 #include "experiments/base/interrupt.h"
 #include "tests/experiments/base/declare.h"
 
@@ -87,7 +88,7 @@ void FakeExecutor::execute(std::span<const PlannedRun> batch,
     executed.push_back(run.key);
     RunOutcome outcome;
     if (booleanOf(run.technique.values, "die")) raise(SIGKILL);
-    outcome.sceneFacts = {{"triangles", 12}};
+    outcome.sceneFacts = {{"triangles", 12}, {"product_hash", sha256("product of " + run.key)}};
     if (booleanOf(run.technique.values, "fail")) {
       outcome.error = "asked to fail";
     } else {

@@ -6,13 +6,23 @@
 #include "tests/experiments/fake_bench.h"
 
 // limen-sweep without a GPU. FAKE_DEVICE names the device; FAKE_DEVICE= (empty) stands for a machine without
-// one.
+// one. FAKE_GPUS=3 stands for a machine with a software renderer and then three GPUs of one kind.
 int main(int argc, char** argv) {
   using namespace limen::experiments;
-  const auto makeExecutor = [](const std::string&) -> std::unique_ptr<Executor> {
+  const auto devices = []() -> std::vector<SweepDevice> {
+    const char* const count = std::getenv("FAKE_GPUS");
+    if (!count) return {};
+    std::vector<SweepDevice> out = {{"fake renderer", true}};
+    out.resize(1 + static_cast<size_t>(std::atoi(count)), {"fake GPU", false});
+    return out;
+  };
+  const auto makeExecutor = [&](const std::string&, const std::string&) -> std::unique_ptr<Executor> {
+    const char* const chosen = std::getenv("LIMEN_EGL_DEVICE");
+    if (chosen && *chosen != '\0' && std::getenv("FAKE_GPUS"))
+      return std::make_unique<FakeExecutor>(devices().at(std::stoul(chosen)).name);
     const char* const device = std::getenv("FAKE_DEVICE");
     if (device && *device == '\0') throw limen::Error("no device", "EGL", "install a driver");
     return std::make_unique<FakeExecutor>(device ? device : "fake device");
   };
-  return sweepMain(argc, argv, {"limen-sweep", fakeCatalogue, makeExecutor});
+  return sweepMain(argc, argv, {"limen-sweep", fakeCatalogue, makeExecutor, devices});
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <signal.h>
+
+#include <chrono>
+#include <regex>
+#include <thread>
+
+#include "experiments/store/store.h"
+#include "tests/experiments/cli_fixture.h"
+
+namespace limen::experiments {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A machine with a software renderer (0) and three GPUs of one kind (1 to 3).
+class SweepOnGpus : public SweepCli {
+ protected:
+  void SetUp() override {
+    SweepCli::SetUp();
+    setenv("FAKE_GPUS", "3", 1);
+  }
+
+  static std::string descriptor(int sleepMs, const std::string& more = "") {
+    return "title: a\nquestion: b\nscenes: [{name: grid, light_size: [1, 2]}]\ntiming: {batch: 2}\n"
+           "techniques:\n  - {name: soft/bitmask, samples: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], "
+           "sleep_ms: " +
+           std::to_string(sleepMs) + "}\n" + more + "metrics: [rmse]\nexpect: [{metric: rmse, below: 2}]\n";
+  }
+
+  std::vector<store::Run> runs(const std::string& name) const {
+    return store::Store(path(name), store::Access::ReadOnly).allRuns();
+  }
+};
+
+TEST_F(SweepOnGpus, TheStoreIsThatOfOneGpuAndTheSweepEndsAsUsual) {
+  write("d.yaml", descriptor(0));
+  ASSERT_EQ(call({"d.yaml", "--device", "1", "--store", "one.sqlite"}).exitCode, 0);
+  const CallResult result = call({"d.yaml", "--gpus", "all", "--store", "all.sqlite"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("24 of 24 runs left, on 3 GPUs"), HasSubstr("24 measured"),
+                                HasSubstr("held: rmse")));
+  std::map<std::string, nlohmann::json> expected, found;
+  for (const store::Run& run : runs("one.sqlite")) expected[run.key] = run.sceneFacts;
+  for (const store::Run& run : runs("all.sqlite")) {
+    found[run.key] = run.sceneFacts;
+    EXPECT_EQ(run.device, "fake GPU");
+    EXPECT_EQ(run.status, "done");
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_THAT(call({"d.yaml", "--gpus", "all", "--store", "all.sqlite"}).out,
+              AllOf(HasSubstr("0 measured, 24 done before")));
+}
+
+TEST_F(SweepOnGpus, GpusWorkAtTheSameTime) {
+  write("d.yaml", descriptor(100));
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(call({"d.yaml", "--gpus", "1,3", "--no-report"}).exitCode, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // One after another the runs sleep 2.4 s, side by side 1.2 s.
+  EXPECT_LT(seconds, 2.2);
+}
+
+TEST_F(SweepOnGpus, ARunThatKillsItsProcessFailsAndTheOthersAreMeasured) {
+  write("d.yaml", descriptor(0, "  - {name: soft/pcss, die: true}\n"));
+  const CallResult result = call({"d.yaml", "--gpus", "1,2", "--no-report"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("24 measured"), HasSubstr("2 failed"), HasSubstr("died twice")));
+}
+
+TEST_F(SweepOnGpus, KilledWithAllItsProcessesItGoesOnWhereItWas) {
+  write("d.yaml", descriptor(60));
+  const pid_t child = start({"d.yaml", "--gpus", "all", "--no-report"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(450));
+  kill(child, SIGKILL);
+  wait(child);
+  // Its processes end by themselves.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const CallResult again = call({"d.yaml", "--gpus", "all", "--no-report"});
+  EXPECT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(runs("results/d.sqlite").size(), 24U);
+  std::smatch found;
+  const std::string text = again.out;
+  ASSERT_TRUE(std::regex_search(text, found, std::regex("(\\d+) measured, (\\d+) done before"))) << text;
+  EXPECT_GT(std::stoi(found[2]), 0) << "what was finished before is kept";
+}
+
+TEST_F(SweepOnGpus, InterruptedItKeepsWhatIsFinished) {
+  write("d.yaml", descriptor(100));
+  const pid_t child = start({"d.yaml", "--gpus", "1,2", "--no-report"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGINT);
+  const CallResult result = wait(child);
+  EXPECT_EQ(result.exitCode, 130) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("interrupted"));
+  EXPECT_GT(runs("results/d.sqlite").size(), 0U);
+  EXPECT_LT(runs("results/d.sqlite").size(), 24U);
+}
+
+TEST_F(SweepOnGpus, WhatIsNoGpuIsRefused) {
+  write("d.yaml", descriptor(0));
+  for (const char* which : {"4", "x", "1,1", "", "-1", "1,"})
+    EXPECT_EQ(call({"d.yaml", "--gpus", which}).exitCode, 2) << which;
+  EXPECT_THAT(call({"d.yaml", "--gpus", "4"}).err, HasSubstr("--list devices"));
+  EXPECT_THAT(call({"d.yaml", "--gpus", "all", "--shard", "1/2"}).err, HasSubstr("--gpus"));
+  EXPECT_FALSE(exists("results"));
+  unsetenv("FAKE_GPUS");
+  EXPECT_THAT(call({"d.yaml", "--gpus", "all"}).err, HasSubstr("there is no GPU"));
+}
+
+TEST_F(SweepOnGpus, DevicesAreListedByTheirIndices) {
+  const CallResult result = call({"--list", "devices"});
+  EXPECT_EQ(result.out, "0  fake renderer, software renderer\n1  fake GPU\n2  fake GPU\n3  fake GPU\n");
+}
+
+}  // namespace
+}  // namespace limen::experiments
