@@ -37,13 +37,13 @@ class SlurmTest : public SweepCli {
     ASSERT_EQ(up.status, 0) << up.err;
   }
   void TearDown() override {
-    slurm({"down", cluster_});
     if (HasFailure()) {
       std::cerr << "queue:\n" << runAndRead({"squeue", "-t", "all"}).out;
       for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
         if (entry.path().extension() == ".log")
           std::cerr << "--- " << entry.path() << "\n" << readAny(entry.path());
     }
+    slurm({"down", cluster_});
     std::filesystem::remove_all(cluster_);
     SweepCli::TearDown();
   }
@@ -52,9 +52,15 @@ class SlurmTest : public SweepCli {
     words.insert(words.begin(), {"bash", LIMEN_SLURM});
     return runAndRead(words);
   }
+  /// What there is of it: a process may end while its files are read.
   static std::string readAny(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string text;
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    std::array<char, 4096> buffer{};
+    for (ssize_t count = 0; (count = ::read(descriptor, buffer.data(), buffer.size())) > 0;)
+      text.append(buffer.data(), static_cast<size_t>(count));
+    if (descriptor >= 0) close(descriptor);
+    return text;
   }
 
   /// Whether `condition` comes true in time.

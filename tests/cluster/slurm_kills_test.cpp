@@ -72,7 +72,7 @@ TEST_F(SlurmKills, RandomKillsOfTasksNodesAndMergesLoseNothingAndMeasureNothingT
     random_.seed(static_cast<unsigned>(seed + round));
     std::filesystem::remove_all(folder_ / "results");
     // Another sweep each time.
-    write("d.yaml", "# " + std::to_string(round) + "\n" + tasksDescriptor(kRuns, 40));
+    write("d.yaml", "# " + std::to_string(round) + "\n" + tasksDescriptor(kRuns, 150));
     ASSERT_EQ(call({"submit", "d.yaml", "--array", "5", "--no-report"}).exitCode, 0);
     const int disasters = std::uniform_int_distribution(1, 3)(random_);
     for (int i = 0; i < disasters; ++i) strike();

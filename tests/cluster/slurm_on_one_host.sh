@@ -133,8 +133,8 @@ SlurmctldLogFile=$folder/log/slurmctld.log
 SlurmdLogFile=$folder/log/%n.log
 AuthType=auth/munge
 CredType=cred/munge
-# A requeued job waits for its credential to expire: 120 s by default.
-AuthInfo=socket=$folder/munge/socket,cred_expire=3
+# A requeued job waits for its credential to expire: 120 s by default, and with less than 5 as well.
+AuthInfo=socket=$folder/munge/socket,cred_expire=5
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 SwitchType=switch/none

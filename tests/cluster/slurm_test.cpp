@@ -9,9 +9,9 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST_F(SlurmTest, KilledTasksCrashedNodesAndRequeuedJobsLeaveTheStoreOfAnUnsharedSweep) {
-  constexpr size_t kMany = 96;
-  write("d.yaml", tasksDescriptor(kMany, 60));
-  ASSERT_EQ(call({"d.yaml", "--store", "whole.sqlite", "--no-report"}).exitCode, 0);
+  constexpr size_t kMany = 72;
+  write("d.yaml", tasksDescriptor(kMany, 250));
+  const pid_t unshared = start({"d.yaml", "--store", "whole.sqlite", "--no-report"}, "whole");
   const CallResult submitted = call({"submit", "d.yaml", "--array", "6"});
   ASSERT_EQ(submitted.exitCode, 0) << submitted.err;
   const std::string folder = "results/d_tasks/1";
@@ -53,6 +53,7 @@ TEST_F(SlurmTest, KilledTasksCrashedNodesAndRequeuedJobsLeaveTheStoreOfAnUnshare
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(45))
       << "nobody waits for claims of the dead to grow old";
 
+  ASSERT_EQ(wait(unshared, "whole").exitCode, 0);
   const auto expected = hashes(path("whole.sqlite"));
   EXPECT_EQ(expected.size(), kMany);
   EXPECT_EQ(hashes(path("results/d.sqlite")), expected);

@@ -158,12 +158,15 @@ run report study.sqlite
 check "that of a study by analyse report" is "$(<"$scratch/out")" "analyse:$scratch/elsewhere:report study.sqlite"
 run help sweep
 check "help of a command is that of its program" is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:--help"
+run submit a.yaml --array 4
+check "a command without a program of its own is handed to the one it belongs to" \
+  is "$(<"$scratch/out")" "sweep:$scratch/elsewhere:submit a.yaml --array 4"
 run view
-check "a program that this version lacks is named, with those it has" told "no 'view'; it has: sweep analyse report test"
+check "a program that this version lacks is named, with those it has" told "no 'view'; it has: sweep submit status analyse report test"
 check "and is bad input" is $status 2
 run sweeep
 check "an unknown command is bad input" is $status 2
-check "and the nearest one is named, with those there are" told "did you mean 'sweep'? commands: sweep analyse report test"
+check "and the nearest one is named, with those there are" told "did you mean 'sweep'? commands: sweep submit status analyse report test"
 run reprot
 check "swapped letters are one mistake" told "did you mean 'report'?"
 run xylophone
