@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "experiments/base/error.h"
+#include "experiments/base/file_lock.h"
 #include "experiments/base/replace_file.h"
 
 namespace limen::experiments {
@@ -39,29 +40,38 @@ Reference ReferenceCache::get(const std::string& key, int width, int height,
     held_.splice(held_.begin(), held_, known);
     return held_.front().reference;
   }
-  const std::string path = folder_ + "/" + key + ".exr", remarksPath = folder_ + "/" + key + ".json";
-  Reference reference;
-  if (std::error_code code; std::filesystem::exists(path, code)) {
-    if (std::optional<std::vector<std::string>> remarks = readRemarks(remarksPath)) {
-      reference.remarks = std::move(*remarks);
-      try {
-        reference.image = std::make_shared<const Image>(readImage(path));
-      } catch (const Error&) {
-        // A damaged file, for example from a full disk, is replaced.
-      }
-    }
-    if (reference.image && (reference.image->width != width || reference.image->height != height))
-      reference.image.reset();
-  }
-  if (!reference.image) {
-    reference = make();
-    // Before the picture: what has one has remarks as well.
+  std::optional<Reference> reference = read(key, width, height);
+  if (!reference) {
     std::filesystem::create_directories(folder_);
-    replaceFile(remarksPath, nlohmann::json{{"remarks", reference.remarks}}.dump() + "\n");
-    writeExr(path, *reference.image);
+    // Others that need the same one, on this host or another, wait for it rather than make it too.
+    FileLock making(folder_ + "/" + key + ".lock");
+    reference = read(key, width, height);
+    if (!reference) {
+      reference = make();
+      // Before the picture: what has one has remarks as well.
+      replaceFile(remarksOf(key), nlohmann::json{{"remarks", reference->remarks}}.dump() + "\n");
+      writeExr(pictureOf(key), *reference->image);
+    }
+    making.removeFile();
   }
-  hold(key, reference);
-  return reference;
+  hold(key, *reference);
+  return *reference;
+}
+
+std::string ReferenceCache::pictureOf(const std::string& key) const { return folder_ + "/" + key + ".exr"; }
+std::string ReferenceCache::remarksOf(const std::string& key) const { return folder_ + "/" + key + ".json"; }
+
+std::optional<Reference> ReferenceCache::read(const std::string& key, int width, int height) const {
+  if (std::error_code code; !std::filesystem::exists(pictureOf(key), code)) return std::nullopt;
+  std::optional<std::vector<std::string>> remarks = readRemarks(remarksOf(key));
+  if (!remarks) return std::nullopt;
+  try {
+    Reference reference{std::make_shared<const Image>(readImage(pictureOf(key))), std::move(*remarks)};
+    if (reference.image->width == width && reference.image->height == height) return reference;
+  } catch (const Error&) {
+    // A damaged file, for example from a full disk, is replaced.
+  }
+  return std::nullopt;
 }
 
 void ReferenceCache::hold(const std::string& key, Reference reference) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct Reference {
 };
 
 /// Reference products on disk (32-bit EXR, and their remarks beside them as JSON), named by a hash of
-/// everything that determines them. Safe to share between processes: files appear atomically.
+/// everything that determines them. Safe to share between processes and hosts: files appear atomically, and
+/// of several that need the same one, one makes it while the others wait.
 class ReferenceCache {
  public:
   explicit ReferenceCache(std::string folder, size_t bytesInMemory = size_t{256} << 20)
@@ -34,6 +36,10 @@ class ReferenceCache {
     std::string key;
     Reference reference;
   };
+  std::string pictureOf(const std::string& key) const;
+  std::string remarksOf(const std::string& key) const;
+  /// None if the disk does not have it whole.
+  std::optional<Reference> read(const std::string& key, int width, int height) const;
   void hold(const std::string& key, Reference reference);
 
   std::string folder_;

@@ -16,7 +16,7 @@
 #include "experiments/base/child_process.h"
 #include "experiments/base/claim_owner.h"
 #include "experiments/base/environment.h"
-#include "experiments/base/folder_lock.h"
+#include "experiments/base/file_lock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/printable.h"
 #include "experiments/base/replace_file.h"
@@ -218,10 +218,10 @@ int submitGroup(const Group& group, const SweepProgram& program, const SweepOpti
   const size_t planned = left.size();
   size_t queued = 0;
   bool unended = false;
-  std::optional<FolderLock> lock;
+  std::optional<FileLock> lock;
   if (!options.dryRun) {
-    makeFolderOf(folder + "/1");
-    lock.emplace(folder);
+    makeFolderOf(folder + "/lock");
+    lock.emplace(folder + "/lock");
     enterPlans(group);
     unended = gather(group.store, output).unended;
   }
@@ -365,8 +365,8 @@ int sweepGroup(const Group& group, const std::vector<int>& devices, const SweepP
   std::vector<std::vector<std::string>> keys;
   Submission submission = describeSubmission(group, options);
   {
-    makeFolderOf(folder + "/1");
-    const FolderLock lock(folder);
+    makeFolderOf(folder + "/lock");
+    const FileLock lock(folder + "/lock");
     enterPlans(group);
     gather(group.store, output);
     std::set<std::string> names;
@@ -407,7 +407,7 @@ int sweepGroup(const Group& group, const std::vector<int>& devices, const SweepP
       if (statuses[i] > kExitFailedRuns && signal == 0)
         note += fmt::format("{}GPU {}: its process ended with {}; its log: {}", note.empty() ? "" : "\n",
                             devices[i], statuses[i], taskLog(submission, static_cast<int>(i) + 1));
-    const FolderLock lock(folder);
+    const FileLock lock(folder + "/lock");
     gatherSubmission(submission, group.store, output);
     stopped = signal != 0;
     if (stopped) {
@@ -481,7 +481,7 @@ int mergeTasks(const SweepProgram& program, const SweepOptions& given) {
   enterFolder(submission.startedIn);
   const SweepOptions options = optionsOf(submission, given);
   const SweepOutput output(options);
-  const FolderLock lock(tasksFolder(submission.store));
+  const FileLock lock(tasksFolder(submission.store) + "/lock");
   const std::vector<SlurmTask> tasks = listJobs(submission).value_or(std::vector<SlurmTask>());
   gatherSubmission(submission, submission.store, output);
   const std::vector<std::string> ended = troubles(submission, tasks);

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "experiments/base/error.h"
+#include "experiments/base/file_lock.h"
 #include "experiments/base/interrupt.h"
 
 namespace limen {
@@ -19,6 +20,23 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(20);
 constexpr int kPollsInSilence = 100;
+
+/// Closes the file if it throws.
+void waitForLock(int file, const char* path) {
+  try {
+    for (int polls = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++polls) {
+      if (errno == EINTR) continue;
+      if (errno != EWOULDBLOCK) return;
+      if (polls == kPollsInSilence)
+        std::fprintf(stderr, "waiting for another process that writes to %s\n", path);
+      throwIfInterrupted();
+      std::this_thread::sleep_for(kPoll);
+    }
+  } catch (...) {
+    ::close(file);
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -28,21 +46,22 @@ FolderLock::FolderLock(const std::string& folder) {
   if (file_ < 0)
     throw Error(std::string("the folder cannot be opened: ") + std::strerror(errno), path,
                 "check the path and its rights");
-  try {
-    for (int polls = 0; ::flock(file_, LOCK_EX | LOCK_NB) != 0; ++polls) {
-      if (errno == EINTR) continue;
-      if (errno != EWOULDBLOCK) return;
-      if (polls == kPollsInSilence)
-        std::fprintf(stderr, "waiting for another process that writes to %s\n", path);
-      throwIfInterrupted();
-      std::this_thread::sleep_for(kPoll);
-    }
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
+  waitForLock(file_, path);
 }
 
 FolderLock::~FolderLock() { ::close(file_); }
+
+// Locks of network file systems are for files that are open for writing, which a folder cannot be.
+FileLock::FileLock(const std::string& path) : path_(path) {
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0)
+    throw Error(std::string("the lock cannot be made: ") + std::strerror(errno), path,
+                "check the folder's rights and free space");
+  waitForLock(file_, path.c_str());
+}
+
+FileLock::~FileLock() { ::close(file_); }
+
+void FileLock::removeFile() { ::unlink(path_.c_str()); }
 
 }  // namespace limen

@@ -2,9 +2,14 @@
 #include "experiments/reference_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <thread>
 
 namespace limen::experiments {
 namespace {
@@ -79,6 +84,46 @@ TEST_F(ReferenceCacheTest, APictureWithoutItsRemarksIsMadeAgain) {
     read();
   }
   EXPECT_EQ(made_, 6);
+}
+
+TEST_F(ReferenceCacheTest, OfTwoProcessesThatNeedItAtOnceOneMakesIt) {
+  // Each appends a line when it makes the reference, which takes long enough for the other to come.
+  const std::string made = folder_ + "/made";
+  std::vector<pid_t> children;
+  for (int i = 0; i < 3; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      ReferenceCache cache(folder_);
+      const Reference reference = cache.get("key", 4, 3, [&] {
+        std::ofstream(made, std::ios::app) << "once\n";
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        return Reference{std::make_shared<const Image>(4, 3, 1, 0.25F), {}};
+      });
+      _exit(reference.image->at(3, 2) == 0.25F ? 0 : 1);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  std::ifstream file(made);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "once\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_NE(entry.path().extension(), ".lock") << "nothing is left behind";
+}
+
+TEST_F(ReferenceCacheTest, AProcessThatDiesWhileItMakesOneHoldsNobodyUp) {
+  const pid_t child = fork();
+  if (child == 0) {
+    ReferenceCache cache(folder_);
+    cache.get("key", 4, 3, []() -> Reference { _exit(9); });
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_EQ(WEXITSTATUS(status), 9);
+  EXPECT_EQ(read(), 0.25F);
 }
 
 }  // namespace
