@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "experiments/base/build_facts.h"
+#include "experiments/base/data_folder.h"
 #include "experiments/base/error.h"
 #include "experiments/base/printable.h"
 #include "experiments/base/text.h"
@@ -134,7 +135,7 @@ int cutSlurmOptions(int argc, char** argv, SweepOptions& options) {
 ParsedOptions parseOptions(int argc, char** argv, const std::string& program) {
   ParsedOptions parsed;
   SweepOptions& options = parsed.options;
-  options.root = LIMEN_SOURCE_DIR;
+  options.root = dataFolder();
   CLI::App app("Runs whatever is not done yet of the experiments in the descriptors.", program);
   app.set_version_flag("--version", versionText(program), "Print version and commit");
   app.add_option("descriptor", options.descriptors, "Descriptors, run one after another")->type_name("FILE");

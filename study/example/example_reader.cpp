@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/base/data_folder.h"
 #include "experiments/base/entry_reader.h"
 #include "experiments/base/error.h"
 #include "experiments/base/input_files.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = YamlNode::Kind;
 
-const char* const kExampleFolder = LIMEN_SOURCE_DIR "/study/examples";
+std::string exampleFolder() { return dataFolder() + "/study/examples"; }
 
 class ExampleReader {
  public:
@@ -206,10 +207,10 @@ Example parseExample(const std::string& text, const std::string& path) {
   return ExampleReader(path).read(text);
 }
 
-std::vector<std::pair<std::string, std::string>> shippedExamples() { return shippedFiles(kExampleFolder); }
+std::vector<std::pair<std::string, std::string>> shippedExamples() { return shippedFiles(exampleFolder()); }
 
 Example readExample(const std::string& nameOrPath) {
-  const std::string path = findShipped(nameOrPath, kExampleFolder, "example");
+  const std::string path = findShipped(nameOrPath, exampleFolder(), "example");
   protectInput(path);
   return parseExample(readTextFile(path), path);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "experiments/base/data_folder.h"
 #include "experiments/base/error.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/input_files.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = YamlNode::Kind;
 
-const char* const kProtocolFolder = LIMEN_SOURCE_DIR "/study/protocols";
+std::string protocolFolder() { return dataFolder() + "/study/protocols"; }
 
 const std::vector<std::string>& protocolKeys() {
   static const std::vector<std::string> kKeys = {
@@ -268,10 +269,10 @@ Protocol parseProtocol(const std::string& text, const std::string& path,
   return ProtocolReader(path, std::move(catalogue)).read(text);
 }
 
-std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shippedFiles(kProtocolFolder); }
+std::vector<std::pair<std::string, std::string>> shippedProtocols() { return shippedFiles(protocolFolder()); }
 
 Protocol readProtocol(const std::string& nameOrPath, std::shared_ptr<const Catalogue> catalogue) {
-  const std::string path = findShipped(nameOrPath, kProtocolFolder, "protocol");
+  const std::string path = findShipped(nameOrPath, protocolFolder(), "protocol");
   protectInput(path);
   return parseProtocol(readTextFile(path), path, std::move(catalogue));
 }

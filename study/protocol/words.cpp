@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "experiments/base/data_folder.h"
 #include "experiments/base/hash.h"
 #include "experiments/base/input_files.h"
 #include "experiments/base/problems.h"
@@ -18,8 +19,6 @@ extern const char* const kEnglishWords;
 
 namespace limen::study {
 namespace {
-
-const char* const kWordsFolder = LIMEN_SOURCE_DIR "/study/words";
 
 /// Names in braces.
 std::set<std::string> placeholdersOf(const std::string& text) {
@@ -105,7 +104,7 @@ Words readWords(const std::string& nameOrPath, const std::string& folder) {
   const std::filesystem::path beside = std::filesystem::path(folder) / nameOrPath;
   const std::string path = std::filesystem::is_regular_file(beside, ignored)
                                ? beside.string()
-                               : findShipped(nameOrPath, kWordsFolder, "language");
+                               : findShipped(nameOrPath, dataFolder() + "/study/words", "language");
   protectInput(path);
   return Words::parse(readTextFile(path), path);
 }
