@@ -69,6 +69,18 @@ std::vector<Group> groupByStore(std::vector<PlannedSweep> sweeps) {
   return out;
 }
 
+/// Nothing is written before all of this is known to be good.
+std::vector<Group> groupedSweeps(const SweepProgram& program, const SweepOptions& options) {
+  std::vector<Group> groups = groupByStore(planSweeps(options, program.catalogue()));
+  for (const Group& group : groups) requirePlainName(tasksFolder(group.store));
+  requireUtf8({{"store", options.store},
+               {"descriptors", options.descriptors},
+               {"folder", currentFolder()},
+               {"references", options.references},
+               {"slurm_options", options.slurmOptions}});
+  return groups;
+}
+
 /// Keys for each task: batches of what is left, dealt to at most `count` tasks.
 std::vector<std::vector<std::string>> dealKeys(const Group& group, const std::set<std::string>& left,
                                                size_t count) {
@@ -426,17 +438,17 @@ int submitSweeps(const SweepProgram& program, const SweepOptions& options) {
   checkSlurmOptions(options.slurmOptions);
   readArray(options.array);
   int exitCode = kExitSuccess;
-  for (const Group& group : groupByStore(planSweeps(options, program.catalogue())))
+  for (const Group& group : groupedSweeps(program, options))
     exitCode = std::max(exitCode, submitGroup(group, program, options));
   return exitCode;
 }
 
 int sweepOnDevices(const SweepProgram& program, const SweepOptions& options) {
-  const std::vector<PlannedSweep> sweeps = planSweeps(options, program.catalogue());
+  const std::vector<Group> groups = groupedSweeps(program, options);
   const std::vector<int> devices = chooseDevices(program, options.gpus);
   int exitCode = kExitSuccess;
   bool stopped = false;
-  for (const Group& group : groupByStore(sweeps)) {
+  for (const Group& group : groups) {
     exitCode = std::max(exitCode, sweepGroup(group, devices, program, options, stopped));
     if (stopped || (options.failFast && exitCode != kExitSuccess)) break;
   }

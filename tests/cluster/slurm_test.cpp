@@ -6,7 +6,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 TEST_F(SlurmTest, KilledTasksCrashedNodesAndRequeuedJobsLeaveTheStoreOfAnUnsharedSweep) {
   constexpr size_t kMany = 72;
@@ -141,17 +140,22 @@ TEST_F(SlurmTest, CancelledTasksStayCancelledUntilTheNextSubmit) {
 }
 
 TEST_F(SlurmTest, AnyFileNameReachesTheTasksAsItIs) {
-  const std::string folder = "it's \"a\" $(touch pwned) `x` %j\nnew line; ";
+  const std::string folder = "it's \"a\" $(touch pwned) `x` %j; ";
   write(folder + "/d e'.yaml", tasksDescriptor(8, 1));
-  const CallResult submitted = call({"submit", folder + "/d e'.yaml", "--store", folder + "/s\"t%A\n.sqlite",
+  const CallResult submitted = call({"submit", folder + "/d e'.yaml", "--store", folder + "/s\"t%A .sqlite",
                                      "--array", "2", "--", "--comment=a 'b' $(touch pwned)"});
   ASSERT_EQ(submitted.exitCode, 0) << submitted.err;
   ASSERT_TRUE(eventually(allOver));
   for (const Listed& job : queue()) EXPECT_EQ(job.state, "COMPLETED") << job.name;
-  EXPECT_EQ(hashes(path(folder + "/s\"t%A\n.sqlite")).size(), 8U);
+  EXPECT_EQ(hashes(path(folder + "/s\"t%A .sqlite")).size(), 8U);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
     EXPECT_NE(entry.path().filename(), "pwned") << "a shell has read it";
-  EXPECT_THAT(call({"submit", "\xff.yaml", "--array", "2"}).err, Not(testing::IsEmpty()));
+  // What a terminal would obey, and what is no text, is refused before anything is written.
+  for (const char* name : {"new\nline.sqlite", "\xff.sqlite"}) {
+    const CallResult refused = call({"submit", folder + "/d e'.yaml", "--store", name, "--array", "2"});
+    EXPECT_EQ(refused.exitCode, 2) << name;
+    EXPECT_FALSE(exists(name)) << name;
+  }
 }
 
 }  // namespace
