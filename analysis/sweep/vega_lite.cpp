@@ -68,10 +68,10 @@ std::string vegaLite(const Sweep& sweep) {
   for (size_t i = 0; i < names.size(); ++i) colours.emplace_back(kChartColours[i % kChartColours.size()]);
   json layers = json::array();
   if (anyFront) {
-    json upY = y;
-    layers.push_back({{"transform", {{{"filter", "datum.front"}}}},
-                      {"mark", {{"type", "line"}, {"interpolate", "step-after"}, {"color", "#777777"}}},
-                      {"encoding", {{"x", x}, {"y", upY}, {"order", {{"field", "x"}}}}}});
+    layers.push_back(
+        {{"transform", {{{"filter", "datum.front"}}}},
+         {"mark", {{"type", "line"}, {"interpolate", "step-after"}, {"color", "#777777"}}},
+         {"encoding", {{"x", x}, {"y", y}, {"order", {{"field", "x"}, {"type", "quantitative"}}}}}});
   }
   const json colour = {{"field", "series"},
                        {"type", "nominal"},
@@ -93,8 +93,8 @@ std::string vegaLite(const Sweep& sweep) {
                         {"scale", {{"domain", names}}}}},
                       {"tooltip",
                        {{{"field", "setting"}, {"title", "Setting"}},
-                        {{"field", "x"}, {"title", sweep.x.label()}},
-                        {{"field", "y"}, {"title", sweep.y.label()}}}}}}});
+                        {{"field", "x"}, {"type", "quantitative"}, {"title", sweep.x.label()}},
+                        {{"field", "y"}, {"type", "quantitative"}, {"title", sweep.y.label()}}}}}}});
   std::string description = sweep.experiment.question;
   if (!sweep.isComplete())
     description += " (Not complete: " + std::to_string(sweep.failed.size()) + " runs failed, " +

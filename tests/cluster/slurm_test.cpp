@@ -45,7 +45,12 @@ TEST_F(SlurmTest, KilledTasksCrashedNodesAndRequeuedJobsLeaveTheStoreOfAnUnshare
       EXPECT_EQ(runAndRead({"scontrol", "requeue", job.job}).status, 0);
       break;
     }
-  std::this_thread::sleep_for(std::chrono::seconds(4));
+  // A node that comes back before it is missed is asked for its jobs only after half a minute.
+  ASSERT_TRUE(eventually([&] {
+    for (const Listed& job : queue())
+      if (job.node == node && job.state == "RUNNING") return false;
+    return true;
+  }));
   ASSERT_EQ(slurm({"revive", cluster_, node}).status, 0);
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_TRUE(eventually(allOver));
@@ -125,6 +130,18 @@ TEST_F(SlurmTest, WhatIsInTheQueueIsNotSubmittedAgain) {
   EXPECT_EQ(hashes(path("results/d.sqlite")).size(), 20U);
 }
 
+TEST_F(SlurmTest, TasksThatNoJobWouldMergeGetOneWithTheNextSubmit) {
+  write("d.yaml", tasksDescriptor(16, 200));
+  ASSERT_EQ(call({"submit", "d.yaml", "--array", "2"}).exitCode, 0);
+  for (const Listed& job : queue())
+    if (job.index == 0) runAndRead({"scancel", job.job});
+  EXPECT_THAT(call({"submit", "d.yaml", "--array", "2"}).out,
+              AllOf(HasSubstr("is merged by job"), HasSubstr("16 in the queue")));
+  ASSERT_TRUE(eventually(allOver));
+  EXPECT_EQ(hashes(path("results/d.sqlite")).size(), 16U);
+  EXPECT_TRUE(exists("results/d_report/report.html"));
+}
+
 TEST_F(SlurmTest, CancelledTasksStayCancelledUntilTheNextSubmit) {
   write("d.yaml", tasksDescriptor(24, 300));
   ASSERT_EQ(call({"submit", "d.yaml", "--array", "2"}).exitCode, 0);
@@ -151,7 +168,7 @@ TEST_F(SlurmTest, AnyFileNameReachesTheTasksAsItIs) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
     EXPECT_NE(entry.path().filename(), "pwned") << "a shell has read it";
   // What a terminal would obey, and what is no text, is refused before anything is written.
-  for (const char* name : {"new\nline.sqlite", "\xff.sqlite"}) {
+  for (const char* name : {"new\nline.sqlite", "\xff.sqlite", "back\\slash.sqlite"}) {
     const CallResult refused = call({"submit", folder + "/d e'.yaml", "--store", name, "--array", "2"});
     EXPECT_EQ(refused.exitCode, 2) << name;
     EXPECT_FALSE(exists(name)) << name;
