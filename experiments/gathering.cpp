@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <system_error>
 
 #include "experiments/base/child_process.h"
 #include "experiments/base/claim_owner.h"
@@ -44,13 +46,25 @@ Facts collect(const store::Store& results, const std::function<bool(const std::s
 
 std::string markOf(const Submission& submission, const char* name) { return submission.folder + "/" + name; }
 
+/// Whether a task said within the hour, after which claims lapse as well, that it is at work.
+bool sawProgress(const Submission& submission) {
+  for (int task = 1; task <= submission.tasks; ++task) {
+    std::error_code code;
+    const fs::file_time_type at = fs::last_write_time(progressFile(submission, task), code);
+    if (!code && fs::file_time_type::clock::now() - at < std::chrono::hours(1)) return true;
+  }
+  return false;
+}
+
 constexpr const char* kMerged = "merged";
 constexpr const char* kEnded = "ended";
 
 }  // namespace
 
 Facts factsOf(const store::Store& results, const std::string& device) {
-  const std::string part = lowered(device);
+  // An index means another device on each host.
+  const bool index = device.find_first_not_of("0123456789") == std::string::npos;
+  const std::string part = index ? "" : lowered(device);
   return collect(results,
                  [&](const std::string& name) { return lowered(name).find(part) != std::string::npos; });
 }
@@ -68,7 +82,10 @@ size_t finishedIn(const std::string& store) {
 }
 
 bool isActive(const Submission& submission) {
-  if (submission.array.empty()) return stateOfOwner(submission.owner) == OwnerState::Alive;
+  if (submission.array.empty()) {
+    const OwnerState owner = stateOfOwner(submission.owner);
+    return owner == OwnerState::Alive || (owner == OwnerState::Unknown && sawProgress(submission));
+  }
   const std::optional<std::vector<SlurmTask>> tasks = listJobs(submission);
   if (!tasks) {
     if (findProgram("squeue").empty()) return false;
@@ -78,13 +95,19 @@ bool isActive(const Submission& submission) {
   return std::any_of(tasks->begin(), tasks->end(), [](const SlurmTask& task) { return isActive(task); });
 }
 
+std::vector<Submission> activeSubmissions(const std::string& store) {
+  std::vector<Submission> out;
+  for (Submission& submission : readSubmissions(store))
+    if (!fs::exists(markOf(submission, kMerged)) && isActive(submission))
+      out.push_back(std::move(submission));
+  return out;
+}
+
 std::set<std::string> keysInQueue(const std::string& store) {
   std::set<std::string> out;
-  for (const Submission& submission : readSubmissions(store)) {
-    if (fs::exists(markOf(submission, kMerged)) || !isActive(submission)) continue;
+  for (const Submission& submission : activeSubmissions(store))
     for (int task = 1; task <= submission.tasks; ++task)
       for (std::string& key : taskKeys(submission, task)) out.insert(std::move(key));
-  }
   return out;
 }
 

@@ -19,7 +19,7 @@ struct RunFacts {
 };
 using Facts = std::unordered_map<std::string, RunFacts>;  ///< by key
 
-/// Of runs on devices whose name has `device` in it, in any case.
+/// Of runs on devices whose name has `device` in it, in any case; of all if that is "" or an index.
 Facts factsOf(const store::Store& results, const std::string& device = {});
 /// Of runs on these devices.
 Facts factsOf(const store::Store& results, const std::set<std::string>& devices);
@@ -31,7 +31,9 @@ size_t finishedIn(const std::string& store);
 /// lives. Throws Error if Slurm does not answer.
 bool isActive(const Submission& submission);
 
-/// Keys of submissions that are active.
+/// Submissions that are active and not gathered yet.
+std::vector<Submission> activeSubmissions(const std::string& store);
+/// Their keys.
 std::set<std::string> keysInQueue(const std::string& store);
 
 /// Copies what a submission's tasks finished into the store; what is there already stays. A task's store that

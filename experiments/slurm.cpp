@@ -46,6 +46,13 @@ bool isOfThisJob(const std::string& variable) {
   return variable.starts_with("SLURM") && variable != "SLURM_CONF" && variable != "SLURM_TIME_FORMAT";
 }
 
+/// Slurm replaces %j and others in names of logs, in that of their folder too.
+std::string escapePercent(const std::string& folder) {
+  std::string out;
+  for (const char c : folder) out += c == '%' ? "%%" : std::string(1, c);
+  return out;
+}
+
 SlurmJob makeJob(const Submission& submission, const std::string& name, const std::string& log,
                  const std::string& verb, const std::string& comment, std::vector<std::string> more) {
   SlurmJob job;
@@ -55,10 +62,10 @@ SlurmJob makeJob(const Submission& submission, const std::string& name, const st
   job.call = {"sbatch"};
   // Ours come last: the last of an option holds.
   for (const std::string& option : submission.slurmOptions) job.call.push_back(option);
-  // Relative to the folder, whose name may hold what Slurm would replace in a file's name.
+  const std::string path = "=" + escapePercent(submission.folder) + "/" + log;
   for (const std::string& option : {std::string("--parsable"), "--job-name=" + name, std::string("--requeue"),
                                     std::string("--open-mode=append"), "--chdir=" + submission.folder,
-                                    "--output=" + log, "--error=" + log})
+                                    "--output" + path, "--error" + path})
     job.call.push_back(option);
   job.call.insert(job.call.end(), more.begin(), more.end());
   for (const std::string& word : {job.scriptPath, ownProgram(), std::string("job"), verb, submission.folder})
@@ -109,6 +116,12 @@ std::pair<int, int> readArray(const std::string& text) {
   return out;
 }
 
+void requireSlurmName(const std::string& folder) {
+  if (folder.find('\\') != std::string::npos)
+    throw Error("the folder's name holds a backslash, which Slurm takes for an instruction", folder,
+                "rename it, or name a store elsewhere");
+}
+
 SlurmJob arrayJob(const Submission& submission) {
   const int atOnce = readArray(submission.array).second;
   std::string array = fmt::format("--array=1-{}", submission.tasks);
@@ -148,7 +161,7 @@ std::optional<std::vector<SlurmTask>> listJobs(const Submission& submission) {
   if (submission.array.empty()) return std::vector<SlurmTask>();
   const ProgramOutput answer = runAndRead({"squeue", "--noheader", "--array", "--states=all",
                                            "--name=" + submission.name + "," + submission.name + kMergeSuffix,
-                                           "--format=%j|%A|%K|%T|%N|%r"});
+                                           "--format=%j|%A|%K|%T|%N|%F|%r"});
   if (answer.status != 0) return std::nullopt;
   std::vector<SlurmTask> out;
   std::istringstream lines(answer.out);
@@ -156,10 +169,15 @@ std::optional<std::vector<SlurmTask>> listJobs(const Submission& submission) {
     std::vector<std::string> fields;
     std::istringstream rest(line);
     for (std::string field; std::getline(rest, field, '|');) fields.push_back(field);
-    fields.resize(6);
-    SlurmTask task{
-        fields[1], std::atoi(fields[2].c_str()), fields[0].ends_with(kMergeSuffix), fields[3], fields[5],
-        fields[4]};
+    fields.resize(7);
+    SlurmTask task;
+    task.job = fields[1];
+    task.index = std::atoi(fields[2].c_str());
+    task.merge = fields[0].ends_with(kMergeSuffix);
+    task.state = fields[3];
+    task.nodes = fields[4];
+    task.array = fields[5];
+    task.reason = fields[6];
     out.push_back(std::move(task));
   }
   return out;

@@ -16,6 +16,7 @@ struct SlurmTask {
   bool merge = false;  ///< the job that merges
   std::string state;   ///< PENDING, RUNNING, COMPLETED, FAILED, NODE_FAIL, CANCELLED, ...
   std::string reason, nodes;
+  std::string array;  ///< number of the array that it is of, as dependencies name it
 };
 
 /// Whether the state is one that ends by itself: waiting or at work.
@@ -32,6 +33,9 @@ struct SlurmJob {
 void checkSlurmOptions(const std::vector<std::string>& options);
 /// "64" or "64%8" as numbers of tasks and, or 0, of those that run at once. Throws Error.
 std::pair<int, int> readArray(const std::string& text);
+
+/// Throws Error for a folder that logs of jobs cannot lie in.
+void requireSlurmName(const std::string& folder);
 
 SlurmJob arrayJob(const Submission& submission);
 /// Begins when the array has ended in whatever way; `array` is its number.

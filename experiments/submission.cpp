@@ -101,32 +101,36 @@ std::vector<Submission> readSubmissions(const std::string& store) {
   return out;
 }
 
+void requireUtf8(const nlohmann::json& names) {
+  try {
+    static_cast<void>(names.dump());
+  } catch (const nlohmann::json::exception&) {
+    throw Error("the name of a file, a folder or an option is not UTF-8", "command line",
+                "rename it: it could not be handed to the tasks as it is");
+  }
+}
+
 void writeSubmission(Submission& submission, const std::vector<std::vector<std::string>>& keys) {
   const std::string all = tasksFolder(resolvePath(submission.startedIn, submission.store));
   const std::vector<int> numbers = numbersIn(all);
   submission.folder = all + "/" + std::to_string(numbers.empty() ? 1 : numbers.back() + 1);
   submission.tasks = static_cast<int>(keys.size());
   submission.name = jobName(submission);
-  std::string text;
-  try {
-    text = nlohmann::json{{"name", submission.name},
-                          {"started_in", submission.startedIn},
-                          {"descriptors", submission.descriptors},
-                          {"experiments", submission.experiments},
-                          {"store", submission.store},
-                          {"root", submission.root},
-                          {"references", submission.references},
-                          {"device", submission.device},
-                          {"array", submission.array},
-                          {"owner", submission.owner},
-                          {"slurm_options", submission.slurmOptions},
-                          {"tasks", submission.tasks},
-                          {"attempt", submission.attempt},
-                          {"report", submission.report}}
-               .dump(1);
-  } catch (const nlohmann::json::exception&) {
-    throw Error("a name or option is not UTF-8", "command line", "rename the file or folder");
-  }
+  const nlohmann::json description = {{"name", submission.name},
+                                      {"started_in", submission.startedIn},
+                                      {"descriptors", submission.descriptors},
+                                      {"experiments", submission.experiments},
+                                      {"store", submission.store},
+                                      {"root", submission.root},
+                                      {"references", submission.references},
+                                      {"device", submission.device},
+                                      {"array", submission.array},
+                                      {"owner", submission.owner},
+                                      {"slurm_options", submission.slurmOptions},
+                                      {"tasks", submission.tasks},
+                                      {"attempt", submission.attempt},
+                                      {"report", submission.report}};
+  requireUtf8(description);
   std::error_code code;
   fs::create_directories(submission.folder, code);
   if (code)
@@ -137,7 +141,7 @@ void writeSubmission(Submission& submission, const std::vector<std::vector<std::
     for (const std::string& key : keys[i]) lines += key + "\n";
     replaceFile(file(submission, static_cast<int>(i) + 1, ".keys"), lines);
   }
-  replaceFile(submission.folder + "/" + kFile, text + "\n");
+  replaceFile(submission.folder + "/" + kFile, description.dump(1) + "\n");
 }
 
 std::string taskStore(const Submission& submission, int task) { return file(submission, task, ".sqlite"); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,10 @@ std::string tasksFolder(const std::string& store);
 std::vector<Submission> readSubmissions(const std::string& store);
 Submission readSubmission(const std::string& folder);
 
-/// Makes the folder after the last one and writes the keys of each task. Sets folder, tasks and name. Throws
-/// Error if a name is not UTF-8.
+/// Throws Error if text in it cannot be written to submission.json.
+void requireUtf8(const nlohmann::json& names);
+
+/// Makes the folder after the last one and writes the keys of each task. Sets folder, tasks and name.
 void writeSubmission(Submission& submission, const std::vector<std::vector<std::string>>& keys);
 
 std::string taskStore(const Submission& submission, int task);

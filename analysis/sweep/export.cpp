@@ -28,11 +28,15 @@ Row joined(Row left, const Row& right) {
   return left;
 }
 
-void write(const std::string& folder, const std::string& name, const Row& header,
-           const std::vector<Row>& rows) {
+std::string csvOf(const Row& header, const std::vector<Row>& rows) {
   std::string text = csvLine(header);
   for (const Row& row : rows) text += csvLine(row);
-  writeFileBytes((std::filesystem::path(folder) / name).string(), text);
+  return text;
+}
+
+void write(const std::string& folder, const std::string& name, const Row& header,
+           const std::vector<Row>& rows) {
+  writeFileBytes((std::filesystem::path(folder) / name).string(), csvOf(header, rows));
 }
 
 std::vector<const store::Run*> allRuns(const Sweep& sweep) {
@@ -42,7 +46,28 @@ std::vector<const store::Run*> allRuns(const Sweep& sweep) {
   return runs;
 }
 
-void exportRuns(const Sweep& sweep, const std::string& folder) {
+/// The data dictionary: what the columns of runs.csv and the names in measurements.csv mean.
+void exportDictionary(const Sweep& sweep, const std::string& folder) {
+  std::vector<Row> quantities, parameters;
+  for (const store::QuantityRow& q : sweep.names.descriptions().quantities)
+    quantities.push_back(
+        {q.name, q.title, q.unit, q.direction ? toText(*q.direction) : "unknown", q.kind, q.pass, q.source});
+  for (const store::ParameterRow& p : sweep.names.descriptions().parameters)
+    // The values of metrics' parameters stand in one column, "metrics".
+    parameters.push_back({p.subject == "metric" ? "metrics" : p.subject + "." + p.path, p.subject, p.owner,
+                          p.path, p.when.empty() ? "" : p.when.dump(), p.title, p.unit, p.type,
+                          p.defaultValue, p.description, p.source});
+  write(folder, "quantities.csv", {"name", "title", "unit", "direction", "kind", "pass", "source"},
+        quantities);
+  write(folder, "parameters.csv",
+        {"column", "subject", "owner", "path", "exists_when", "title", "unit", "type", "default",
+         "description", "source"},
+        parameters);
+}
+
+}  // namespace
+
+std::string runsCsv(const Sweep& sweep) {
   const std::vector<const store::Run*> runs = allRuns(sweep);
   std::set<std::string> parameters;
   Row measurements;
@@ -77,32 +102,11 @@ void exportRuns(const Sweep& sweep, const std::string& folder) {
     }
     rows.push_back(std::move(row));
   }
-  write(folder, "runs.csv", header, rows);
+  return csvOf(header, rows);
 }
-
-/// The data dictionary: what the columns of runs.csv and the names in measurements.csv mean.
-void exportDictionary(const Sweep& sweep, const std::string& folder) {
-  std::vector<Row> quantities, parameters;
-  for (const store::QuantityRow& q : sweep.names.descriptions().quantities)
-    quantities.push_back(
-        {q.name, q.title, q.unit, q.direction ? toText(*q.direction) : "unknown", q.kind, q.pass, q.source});
-  for (const store::ParameterRow& p : sweep.names.descriptions().parameters)
-    // The values of metrics' parameters stand in one column, "metrics".
-    parameters.push_back({p.subject == "metric" ? "metrics" : p.subject + "." + p.path, p.subject, p.owner,
-                          p.path, p.when.empty() ? "" : p.when.dump(), p.title, p.unit, p.type,
-                          p.defaultValue, p.description, p.source});
-  write(folder, "quantities.csv", {"name", "title", "unit", "direction", "kind", "pass", "source"},
-        quantities);
-  write(folder, "parameters.csv",
-        {"column", "subject", "owner", "path", "exists_when", "title", "unit", "type", "default",
-         "description", "source"},
-        parameters);
-}
-
-}  // namespace
 
 void exportTables(const Sweep& sweep, const std::string& folder) {
-  exportRuns(sweep, folder);
+  writeFileBytes((std::filesystem::path(folder) / "runs.csv").string(), runsCsv(sweep));
   exportDictionary(sweep, folder);
   std::vector<Row> measurements, frameTimes, passes;
   for (const store::Run* run : allRuns(sweep)) {

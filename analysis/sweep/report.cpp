@@ -21,22 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void requireComplete(const Sweep& sweep, const std::string& storePath) {
-  if (!sweep.isComplete()) {
-    const std::string example = !sweep.failed.empty()
-                                    ? fmt::format("{} in {} failed: {}", sweep.failed[0].technique,
-                                                  sweep.failed[0].scene, sweep.failed[0].error)
-                                    : fmt::format("{} ({}) in {} is missing", sweep.missing[0].technique,
-                                                  sweep.missing[0].label, sweep.missing[0].scene);
-    throw Error(fmt::format("'{}' is not complete: of {} planned runs {} failed and {} are missing ({})",
-                            sweep.experiment.title, sweep.planned, sweep.failed.size(), sweep.missing.size(),
-                            example),
-                storePath, "finish the sweep, or use --force to report on what is there");
-  }
-  if (sweep.cells.empty())
-    throw Error("'" + sweep.experiment.title + "' plans no runs", storePath, "check its descriptor");
-}
-
 std::string hoverText(const Sweep& sweep, const Cell& cell, const Axis& x, double value) {
   std::string out = sweep.label(cell) + "\n" + sweep.panels[cell.panel].title;
   for (const Axis& column : sweep.varyingColumns)
@@ -164,6 +148,22 @@ ReportResult writeReport(const Sweep& sweep, const std::string& storePath, const
 }
 
 }  // namespace
+
+void requireComplete(const Sweep& sweep, const std::string& storePath) {
+  if (!sweep.isComplete()) {
+    const std::string example = !sweep.failed.empty()
+                                    ? fmt::format("{} in {} failed: {}", sweep.failed[0].technique,
+                                                  sweep.failed[0].scene, sweep.failed[0].error)
+                                    : fmt::format("{} ({}) in {} is missing", sweep.missing[0].technique,
+                                                  sweep.missing[0].label, sweep.missing[0].scene);
+    throw Error(fmt::format("'{}' is not complete: of {} planned runs {} failed and {} are missing ({})",
+                            sweep.experiment.title, sweep.planned, sweep.failed.size(), sweep.missing.size(),
+                            example),
+                storePath, "finish the sweep, or use --force to report on what is there");
+  }
+  if (sweep.cells.empty())
+    throw Error("'" + sweep.experiment.title + "' plans no runs", storePath, "check its descriptor");
+}
 
 std::vector<ReportResult> writeReports(const ReportOptions& options) {
   const store::Store store(options.storePath, store::Access::ReadOnly);

@@ -16,6 +16,9 @@ inline constexpr size_t kShortHash = 8;
 /// "": all. Throws Error: the store is empty, nothing is called so (with the nearest title), or several are.
 std::vector<store::Experiment> chooseExperiments(const store::Store& store, const std::string& wanted);
 
+/// Throws Error if runs of the plan are missing or failed, naming one.
+void requireComplete(const Sweep& sweep, const std::string& storePath);
+
 struct ReportOptions {
   std::string storePath, folder;
   std::string experiment;   ///< title, hash or the beginning of a hash; "": every experiment of the store
@@ -33,6 +36,9 @@ struct ReportResult {
 /// into a folder of its own below. Throws Error if the store cannot be read, the experiment is unknown, or
 /// (without `force`) cells of a plan are missing or failed; nothing is written then.
 std::vector<ReportResult> writeReports(const ReportOptions& options);
+
+/// runs.csv as text: one row a run, parameters and measurements, full precision.
+std::string runsCsv(const Sweep& sweep);
 
 /// Writes runs.csv (one row a run: parameters and measurements), measurements.csv (long form),
 /// frame_times.csv and passes.csv into `folder`, and beside them what their names mean: quantities.csv and

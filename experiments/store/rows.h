@@ -29,4 +29,8 @@ Descriptions readDescriptions(sqlite3* database, int64_t experiment);
 /// The union of both; where they differ, `ours`.
 Descriptions joinDescriptions(Descriptions ours, const Descriptions& theirs);
 
+/// Makes view `runs` anew: a run that is done or failed a row, with a column for each parameter
+/// ("technique.budget.rim") and each quantity ("rmse") that any experiment of the store names.
+void writeRunView(sqlite3* database);
+
 }  // namespace limen::store

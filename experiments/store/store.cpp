@@ -68,6 +68,7 @@ int64_t Store::putExperiment(const Experiment& experiment, const std::vector<Pla
   for (const PlanEntry& entry : plan)
     insert.bind(id, entry.key, position++, entry.technique, entry.scene, entry.label).execute();
   writeDescriptions(database_, id, descriptions);
+  writeRunView(database_);
   transaction.commit();
   return id;
 }

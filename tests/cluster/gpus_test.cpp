@@ -26,7 +26,9 @@ class SweepOnGpus : public SweepCli {
     return "title: a\nquestion: b\nscenes: [{name: grid, light_size: [1, 2]}]\ntiming: {batch: 2}\n"
            "techniques:\n  - {name: soft/bitmask, samples: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], "
            "sleep_ms: " +
-           std::to_string(sleepMs) + "}\n" + more + "metrics: [rmse]\nexpect: [{metric: rmse, below: 2}]\n";
+           std::to_string(sleepMs) + "}\n" + more +
+           "reference: {name: soft/sampled, samples: 256}\nmetrics: [rmse]\nexpect: [{metric: rmse, below: "
+           "2}]\n";
   }
 
   std::vector<store::Run> runs(const std::string& name) const {
@@ -87,9 +89,9 @@ TEST_F(SweepOnGpus, KilledWithAllItsProcessesItGoesOnWhereItWas) {
 }
 
 TEST_F(SweepOnGpus, InterruptedItKeepsWhatIsFinished) {
-  write("d.yaml", descriptor(100));
+  write("d.yaml", descriptor(250));
   const pid_t child = start({"d.yaml", "--gpus", "1,2", "--no-report"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   kill(child, SIGINT);
   const CallResult result = wait(child);
   EXPECT_EQ(result.exitCode, 130) << result.err;

@@ -148,7 +148,7 @@ SchedulerParameters=batch_sched_delay=0,sched_interval=1,sched_min_interval=0,bf
 ReturnToService=2
 JobRequeue=1
 SlurmdTimeout=3
-BatchStartTimeout=10
+BatchStartTimeout=3
 KillWait=1
 MinJobAge=3600
 MessageTimeout=5

@@ -48,7 +48,7 @@ TEST(SlurmOptions, AnArrayIsANumberOfTasksAndOfThoseAtOnce) {
 
 TEST(SlurmScripts, NoNameIsInAScriptAndEachIsAWordOfTheCall) {
   Submission submission;
-  submission.folder = "/a b/$(touch x)'\"\n/s_tasks/1";
+  submission.folder = "/a b/$(touch x)%j'\"/s_tasks/1";
   submission.name = "limen_s_1";
   submission.array = "3";
   submission.tasks = 3;
@@ -57,6 +57,8 @@ TEST(SlurmScripts, NoNameIsInAScriptAndEachIsAWordOfTheCall) {
   EXPECT_THAT(job.script, Not(HasSubstr("touch")));
   EXPECT_THAT(job.call, testing::Contains("--chdir=" + submission.folder));
   EXPECT_THAT(job.call, testing::Contains("--comment=`x`"));
+  // %% is how Slurm writes a % in a file's name.
+  EXPECT_THAT(job.call, testing::Contains("--output=/a b/$(touch x)%%j'\"/s_tasks/1/task_%a.log"));
   EXPECT_EQ(job.call.back(), submission.folder);
   EXPECT_EQ(mergeJob(submission, "17").script.find("touch"), std::string::npos);
 }

@@ -45,7 +45,7 @@ class FirstPictureTest : public testing::Test {
     const Descriptor descriptor = parseDescriptor(descriptorText(timing), "d.yaml", *catalogue, {});
     const Plan plan = makePlan(descriptor, *catalogue);
     store::Store results(folder_.path("r.sqlite"), store::Access::ReadWrite);
-    const auto executor = makeGlExecutor(folder_.path("results"));
+    const auto executor = makeGlExecutor(folder_.path("results"), folder_.path("results/references"));
     NoObserver observer;
     runSweep(plan, results, *executor, nlohmann::json::object(), {}, observer);
     std::vector<store::Run> out;
