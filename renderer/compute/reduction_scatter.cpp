@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stream reduction where shaders can scatter: scan + scatter in one dispatch or three, and the unordered
+// Stream reduction where shaders can scatter: scan + scatter in one dispatch, two or three, and the unordered
 // append (Roger 2008, sections 4.4 and 4.5).
 #include "renderer/compute/reduction_forms.h"
 
@@ -21,21 +21,28 @@ bool hasSubgroups() {
 class ScatterForm : public StreamReduction::BackEnd {
  public:
   ScatterForm(gl::Context& context, uint32_t most, const ReductionSettings& settings, ReductionForm form)
-      : perTile_(static_cast<uint32_t>(kReductionGroup * kReductionRows * 4 / settings.lanes)),
-        tilesAtMost_(tilesOf(most)),
+      : perTile_(static_cast<uint32_t>(settings.group * settings.rows * 4 / settings.lanes)),
+        tilesAtMost_((tilesOf(most) + 3) / 4 * 4),  // four states are read at a time
         state_((2 * int64_t{tilesAtMost_} + kReductionTiles) * 4, nullptr) {
     // Each dispatch leaves cleared what the next one needs so.
     state_.clearUint(kReductionNothing);
-    const auto program = [&](const char* stage) {
+    const auto program = [&](const char* stage, const char* also = nullptr) {
       gl::ShaderDefines defines = reductionDefines(settings);
       defines[stage] = "1";
-      if (hasSubgroups()) defines["SUBGROUPS"] = "1";
+      if (also) defines[also] = "1";
+      defines["GROUP"] = std::to_string(settings.group);
+      defines["ROWS"] = std::to_string(settings.rows);
+      defines["LOOKS"] = std::to_string(settings.looks);
+      if (settings.tickets && form == ReductionForm::LookBack) defines["TICKETS"] = "1";
+      if (settings.emulateSubgroups) defines["EMULATED_SUBGROUPS"] = "1";
+      if (settings.emulateSubgroups || hasSubgroups()) defines["SUBGROUPS"] = "1";
       return &context.programs().compute("renderer/compute/reduction_scatter.comp.glsl", defines);
     };
     if (form == ReductionForm::ScanScatter) {
+      const bool addUp = tilesOf(most) <= kMostTilesAddedUp;
       first_ = program("COUNT");
-      tiles_ = program("TILES");
-      last_ = program("SCATTER");
+      if (!addUp) tiles_ = program("TILES");
+      last_ = program("SCATTER", addUp ? "ADD_UP" : nullptr);
     } else {
       last_ = program(form == ReductionForm::Append ? "APPEND" : "LOOK_BACK");
     }
@@ -63,6 +70,9 @@ class ScatterForm : public StreamReduction::BackEnd {
   int64_t bytes() const override { return state_.bytes(); }
 
  private:
+  /// With more, sums of all tiles before each are made in a dispatch of their own.
+  static constexpr uint32_t kMostTilesAddedUp = 4096;
+
   /// At least one, which writes the count.
   uint32_t tilesOf(uint32_t items) const { return items == 0 ? 1 : (items - 1) / perTile_ + 1; }
 
