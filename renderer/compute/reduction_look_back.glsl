@@ -21,7 +21,7 @@ uvec4 statesAt(int vector, int end) {
 
 // Valid items of all tiles before `tile`; called by one subgroup.
 uint countBefore(uint tile, uint count) {
-  const int lane = int(gl_SubgroupInvocationID);
+  const int lane = int(ownLane());
   uint sum = 0u;
   int end = int(tile), spins = kSpins;
   while (end > 0) {

@@ -56,9 +56,9 @@ void lookBackTile(uint tile, uint count, uint tileCount) {
   const TileSlots slots = tileSlots(pieces);
   if (me == 0u) state[tilesAt + tile] = slots.whole | (tile == 0u ? kReductionAll : kReductionOwn);
 #ifdef SUBGROUPS
-  if (gl_SubgroupID == 0u) {
+  if (ownSubgroup() == 0u) {
     const uint found = countBefore(tile, count);
-    if (gl_SubgroupInvocationID == 0u) {
+    if (ownLane() == 0u) {
       sharedWord = found;
       if (tile > 0u) state[tilesAt + tile] = (found + slots.whole) | kReductionAll;
       if (tile + 1u == tileCount) finishCount(found + slots.whole);
@@ -86,7 +86,7 @@ void countTile(uint tile, uint count) {
   barrier();
 #ifdef SUBGROUPS
   own = subgroupAdd(own);
-  if (gl_SubgroupInvocationID == 0u)
+  if (ownLane() == 0u)
 #endif
     atomicAdd(sharedWord, own);
   barrier();
@@ -135,7 +135,7 @@ void scatterTile(uint tile, uint count, uint tileCount) {
 #ifdef ADD_UP
 #ifdef SUBGROUPS
   own = subgroupAdd(own);
-  if (gl_SubgroupInvocationID == 0u)
+  if (ownLane() == 0u)
 #endif
     atomicAdd(sharedWord, own);
   packTile(pieces, slots);

@@ -17,7 +17,7 @@ layout(std430, binding = kReductionOutBuffer) writeonly buffer Out { ITEM kept[]
 
 // Number of an invocation in the order of the items.
 #ifdef SUBGROUPS
-uint ownPlace() { return gl_SubgroupID * 32u + gl_SubgroupInvocationID; }
+uint ownPlace() { return ownSubgroup() * 32u + ownLane(); }
 // A subgroup takes its rows one after another, so that what it keeps is contiguous.
 uint vectorAt(uint tile, uint row, uint place) {
   return tile * uint(GROUP * ROWS) + (place / 32u * uint(ROWS) + row) * 32u + place % 32u;
@@ -84,11 +84,11 @@ TileSlots tileSlots(in Piece pieces[ROWS]) {
       slots.partCount += all >> 8 * (row - first) & 0xffu;
     }
   }
-  if (gl_SubgroupInvocationID == 0u) partCounts[gl_SubgroupID] = slots.partCount;
+  if (ownLane() == 0u) partCounts[ownSubgroup()] = slots.partCount;
   barrier();
-  const uint part = gl_SubgroupInvocationID < kSubgroups ? partCounts[gl_SubgroupInvocationID] : 0u;
+  const uint part = ownLane() < kSubgroups ? partCounts[ownLane()] : 0u;
   const uint upToPart = subgroupInclusiveAdd(part);
-  slots.partStart = subgroupShuffle(upToPart - part, gl_SubgroupID);
+  slots.partStart = subgroupShuffle(upToPart - part, ownSubgroup());
   slots.whole = subgroupShuffle(upToPart, 31u);
   return slots;
 }
@@ -138,8 +138,8 @@ TileSlots tileSlots(in Piece pieces[ROWS]) {
 #ifdef SUBGROUPS
 const int kPackedRows = min(ROWS, 4);
 const uint kPartInvocations = 32u;
-uint partInvocation() { return gl_SubgroupInvocationID; }
-uint ownPart() { return gl_SubgroupID; }
+uint partInvocation() { return ownLane(); }
+uint ownPart() { return ownSubgroup(); }
 void partBarrier() {
   subgroupMemoryBarrierShared();
   subgroupBarrier();

@@ -5,9 +5,11 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+uint ownSubgroup() { return gl_SubgroupID; }
+uint ownLane() { return gl_SubgroupInvocationID; }
 #else
-#define gl_SubgroupID 0u
-#define gl_SubgroupInvocationID gl_LocalInvocationIndex
+uint ownSubgroup() { return 0u; }
+uint ownLane() { return gl_LocalInvocationIndex; }
 shared uint emulatedLanes[32];
 
 void subgroupBarrier() { barrier(); }
