@@ -59,8 +59,9 @@ class Frame {
   /// The same view within a frame of `parent`, but of `scene`: the parent's scene except for its lights.
   Frame(Frame& parent, const std::string& name, const scene::Scene& scene);
 
-  /// The same view within a frame of `parent`, of whose mirrors it shows `mirrors` alone. It shares all inputs of
-  /// its parent that do not depend on these, and what the parent is told: its levels, positions and what it sees.
+  /// The same view within a frame of `parent`, of whose mirrors it shows `mirrors` alone. It shares all
+  /// inputs of its parent that do not depend on these, and what the parent is told: its levels, positions and
+  /// what it sees.
   Frame(Frame& parent, const std::string& name, const ShownMirrors& mirrors);
 
   gl::Context& context() { return context_; }
@@ -89,8 +90,8 @@ class Frame {
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   /// Not for scenes whose parts move.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
-  /// Mirrors that reflect where they are seen; others look like surfaces that do not. In other mirrors all of them
-  /// reflect as ever. Without a call: all. Call it before the first get().
+  /// Mirrors that reflect where they are seen; others look like surfaces that do not. In other mirrors all of
+  /// them reflect as ever. Without a call: all. Call it before the first get().
   void setShownMirrors(const ShownMirrors& mirrors) { shownMirrors_ = mirrors; }
   const ShownMirrors& shownMirrors() const { return shownMirrors_; }
   /// Storage of the surfaces' shading, with the normals of this frame.

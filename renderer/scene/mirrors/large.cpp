@@ -72,7 +72,8 @@ Scene buildMirrorHerd(const MirrorHerdSettings& settings) {
   }
   for (size_t i = 0; i < herd.size(); ++i) {
     addPart(scene, herd[i], skin);
-    // Each at a pace and in a direction of its own; a figure alone turns as well, several would sweep across others.
+    // Each at a pace and in a direction of its own; a figure alone turns as well, several would sweep across
+    // others.
     const double angle = 2.4 * double(i);
     moveLastPart(scene, settings.motion,
                  {.pivot = places[i],
@@ -90,7 +91,8 @@ Scene buildMirrorHerd(const MirrorHerdSettings& settings) {
 const RegisteredScene<MirrorHerdSettings> kMirrorHerd{
     {.name = "mirrors/herd",
      .version = 1,
-     .summary = "A thousand figures, over a million triangles, on a mirroring ground; they may walk to and fro",
+     .summary =
+         "A thousand figures, over a million triangles, on a mirroring ground; they may walk to and fro",
      .source = "stand-in for Roger 2008, Fig. 3.10 (Alley)"},
     buildMirrorHerd};
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mirrors of different kinds in one scene, each of which calls for a technique of its own (Roger 2008, section 6).
-#include "renderer/scene/mirrors/mirror_parts.h"
+// Mirrors of different kinds in one scene, each of which calls for a technique of its own (Roger 2008,
+// section 6).
 #include <algorithm>
+#include "renderer/scene/mirrors/mirror_parts.h"
 
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"

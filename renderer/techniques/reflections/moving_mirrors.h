@@ -19,7 +19,8 @@ inline bool movesPart(const scene::Scene& scene, size_t part) {
 inline void refuseMovingMirrors(const frame::Frame& frame, const std::string& reason) {
   const scene::Scene& scene = frame.scene();
   for (const scene::PartMotion& motion : scene.motions)
-    if (frame.shownMirrors().has(motion.part) && scene.materials[scene.parts[motion.part].material].reflects())
+    if (frame.shownMirrors().has(motion.part) &&
+        scene.materials[scene.parts[motion.part].material].reflects())
       throw Error(reason + ", and part '" + scene.parts[motion.part].name + "' moves", scene.name,
                   "choose reflections/ray_traced or reflections/ray_hierarchy");
 }

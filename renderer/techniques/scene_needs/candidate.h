@@ -16,7 +16,8 @@ namespace limen::techniques {
 struct Candidate {
   std::string technique;                        ///< as registered
   std::map<std::string, ParameterValue> given;  ///< by path; the rest takes its defaults
-  /// What makes it in place of a registered technique, and what tells it from others made so; null: registered.
+  /// What makes it in place of a registered technique, and what tells it from others made so; null:
+  /// registered.
   std::function<std::unique_ptr<Technique>()> make = {};
   std::string details = {};
 };

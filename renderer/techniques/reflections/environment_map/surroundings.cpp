@@ -18,7 +18,8 @@ struct MapReflector {
   glm::dvec3 middle{0.0};
 };
 
-MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor, const frame::ShownMirrors& shown) {
+MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor,
+                                 const frame::ShownMirrors& shown) {
   MapReflector best;
   double most = -1.0;
   for (size_t p = 0; p < scene.parts.size(); ++p) {
@@ -50,8 +51,7 @@ Surroundings::Surroundings(frame::Frame& frame, int resolution, bool mipLevels,
     : shading_(shading) {
   const scene::Scene& scene = frame.scene();
   refuseMovingMirrors(frame, "a map of a mirror's surroundings has one place");
-  const MapReflector reflector =
-      largestMapReflector(scene, frame.gpuScene().anchor(), frame.shownMirrors());
+  const MapReflector reflector = largestMapReflector(scene, frame.gpuScene().anchor(), frame.shownMirrors());
   part_ = reflector.part, middle_ = reflector.middle;
   std::vector<uint32_t> partOf(scene.mesh.triangles.size());
   for (size_t p = 0; p < scene.parts.size(); ++p)

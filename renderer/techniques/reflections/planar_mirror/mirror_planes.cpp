@@ -35,7 +35,9 @@ MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int 
       if (!(length > 0.0) || !std::isfinite(length)) continue;
       const glm::dvec3 normal = cross / length;
       const auto fits = [&](const glm::dvec4& plane) {
-        const auto off = [&](glm::dvec3 point) { return std::abs(glm::dot(glm::dvec3(plane), point) + plane.w); };
+        const auto off = [&](glm::dvec3 point) {
+          return std::abs(glm::dot(glm::dvec3(plane), point) + plane.w);
+        };
         return glm::length(glm::dvec3(plane) - normal) < kSameNormal &&
                std::max({off(a), off(b), off(c)}) <= tolerance;
       };

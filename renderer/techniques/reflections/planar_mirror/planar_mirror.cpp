@@ -68,7 +68,8 @@ class PlanarMirror : public Technique {
     defines["START"] = "1";
     start_ = &frame.context().programs().compute(kPlanarShader, defines);
     refuseMovingMirrors(frame, "a mirror's plane is found once");
-    found_ = findMirrorPlanes(frame.scene(), frame.gpuScene().anchor(), settings_.planes, frame.shownMirrors());
+    found_ =
+        findMirrorPlanes(frame.scene(), frame.gpuScene().anchor(), settings_.planes, frame.shownMirrors());
     raster_.emplace(frame, frame.sizePx(), found_.planeOf, true);
     for (std::optional<gl::Texture>* texture : {&reflected_, &origin_, &direction_, &share_})
       texture->emplace(gl::Format::RGBA32F, frame.sizePx());

@@ -26,9 +26,9 @@ void GroupedMirrors::prepare(frame::Frame& frame) {
   for (size_t i = 0; i < groups_.size(); ++i) {
     const MirrorGroup& group = groups_[i];
     Shown& shown = shown_.emplace_back();
-    shown.frame =
-        std::make_unique<frame::Frame>(frame, "mirrors_" + std::to_string(i + 1) + "_" + lastName(group.candidate),
-                                       frame::ShownMirrors(group.parts));
+    shown.frame = std::make_unique<frame::Frame>(
+        frame, "mirrors_" + std::to_string(i + 1) + "_" + lastName(group.candidate),
+        frame::ShownMirrors(group.parts));
     shown.technique = makeTechnique(group.candidate);
     shown.technique->prepare(*shown.frame);
   }

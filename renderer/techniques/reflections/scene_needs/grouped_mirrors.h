@@ -17,8 +17,9 @@ struct MirrorGroup {
   std::vector<std::string> names;  ///< theirs, for records
 };
 
-/// Shows each group of mirrors by its own technique, whose picture is taken where pixels see the group. Surfaces that
-/// pixels see, their light and whatever else does not depend on which mirrors are shown are made once.
+/// Shows each group of mirrors by its own technique, whose picture is taken where pixels see the group.
+/// Surfaces that pixels see, their light and whatever else does not depend on which mirrors are shown are
+/// made once.
 class GroupedMirrors : public Technique {
  public:
   /// One group at least, each with a part at least.

@@ -44,9 +44,9 @@ std::vector<MirrorNeed> eachByRule(const scene::Scene& scene, std::span<const Re
   for (size_t i = 0; i < facts.size(); ++i) {
     const ReflectorFacts& mirror = facts[i];
     const NeedVerdict& need = verdict.reflectors[i];
-    std::vector<Candidate> order = {candidateForNeed(need.need, mirror.planes, mirror.glossRad, scene, common)};
-    if (need.need == ReflectorNeed::Cones)
-      order.push_back(filteredMap(mirror.glossRad, common));
+    std::vector<Candidate> order = {
+        candidateForNeed(need.need, mirror.planes, mirror.glossRad, scene, common)};
+    if (need.need == ReflectorNeed::Cones) order.push_back(filteredMap(mirror.glossRad, common));
     order.push_back(candidateForNeed(rays, 0, 0.0, scene, common));
     std::string reason = need.reason;
     for (const Candidate& candidate : order) {

@@ -2,8 +2,9 @@
 // Finds which technique a scene's mirrors need. By rule: Roger's advice (2008, sections 1.3.1, 2.4 and 6),
 // from figures of each mirror's geometry, material and surroundings. By measurement: candidates of all kinds
 // are rendered, compared with a reference and timed, and the cheapest within a target is taken. One technique
-// serves the whole frame, or each mirror has its own (`choose`) and their pictures are joined; what each mirror
-// needs by itself is on record either way. Either choice can be checked against all candidates at full size.
+// serves the whole frame, or each mirror has its own (`choose`) and their pictures are joined; what each
+// mirror needs by itself is on record either way. Either choice can be checked against all candidates at full
+// size.
 //
 // The measured choice depends on measured times: on the same machine, candidates of nearly equal time may be
 // chosen in turn. The rule depends on the scene alone.
@@ -243,7 +244,8 @@ class ReflectionNeeds : public Technique {
 
  private:
   /// What each mirror needs, measured where pixels see it, with the other mirrors showing nothing.
-  void measureEach(frame::Frame& frame, const std::vector<Candidate>& candidates, const NeedsOptions& options) {
+  void measureEach(frame::Frame& frame, const std::vector<Candidate>& candidates,
+                   const NeedsOptions& options) {
     needs_.clear();
     for (const ReflectorFacts& mirror : facts_) {
       frame::Frame alone(frame.context(), frame.scene(), frame.gpuScene(), frame.sizePx(), frame.timeS(),
@@ -253,12 +255,12 @@ class ReflectionNeeds : public Technique {
       const SceneNeedsFound found = findNeeds(
           alone, candidates, reflectionSubject(mirror.glossRad > 0.0, settings_.common), options, clock);
       const Tried& chosen = found.chosen();
-      needs_.push_back({chosen.candidate,
-                        fmt::format("{} of {} candidates within the target, {:.3g}; the {}: {:.3g} ms, {} {:.3g}",
-                                    found.verdict.withinTarget ? found.verdict.eligible.size() : 0,
-                                    found.tried.size(), largestOf(settings_.target),
-                                    found.verdict.withinTarget ? "cheapest" : "most exact",
-                                    chosen.time.medianMs, measureOf(settings_.target), chosen.error.value())});
+      needs_.push_back(
+          {chosen.candidate,
+           fmt::format("{} of {} candidates within the target, {:.3g}; the {}: {:.3g} ms, {} {:.3g}",
+                       found.verdict.withinTarget ? found.verdict.eligible.size() : 0, found.tried.size(),
+                       largestOf(settings_.target), found.verdict.withinTarget ? "cheapest" : "most exact",
+                       chosen.time.medianMs, measureOf(settings_.target), chosen.error.value())});
     }
     choice_ = candidateOf(groupsOf(facts_, needs_));
   }

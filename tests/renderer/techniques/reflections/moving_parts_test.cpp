@@ -96,7 +96,8 @@ TEST_F(MovingParts, RaysAgreeWithTheReference) {
 
 /// Figures that share the 32 parts which may move; their ground is a planar mirror at rest.
 TEST_F(MovingParts, AHerdWalks) {
-  const Given given = {{"figures", int64_t{70}}, {"tessellation", int64_t{1}}, {"motion", std::string("moving")}};
+  const Given given = {
+      {"figures", int64_t{70}}, {"tessellation", int64_t{1}}, {"motion", std::string("moving")}};
   const scene::Scene scene = makeScene("mirrors/herd", given);
   EXPECT_EQ(scene.motions.size(), 24U) << "three figures a part";
   for (const char* tree : {"rebuilt", "refitted"})

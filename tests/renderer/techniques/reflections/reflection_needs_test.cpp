@@ -220,8 +220,8 @@ TEST_F(ReflectionNeedsTest, GlossIsComparedWithASampledReference) {
   EXPECT_EQ(lobeExponent(3.0), 1.0);
 }
 
-// Of the pane, the egg and the figure each has what the rule says of its kind; the joined picture shows each as a frame
-// of its technique alone does, which shows all mirrors.
+// Of the pane, the egg and the figure each has what the rule says of its kind; the joined picture shows each
+// as a frame of its technique alone does, which shows all mirrors.
 TEST_F(ReflectionNeedsTest, EachMirrorIsShownByItsOwnTechnique) {
   const scene::Scene scene =
       makeScene("mirrors/several", {{"tessellation", int64_t{12}}, {"motion", std::string("moving")}});
@@ -231,7 +231,8 @@ TEST_F(ReflectionNeedsTest, EachMirrorIsShownByItsOwnTechnique) {
       {"egg", {"reflections/vertex_reflection", {}}},
       {"figure", {"reflections/ray_hierarchy", {}}}};
   for (const auto& [name, candidate] : expected)
-    EXPECT_THAT(ran.remarks, Contains(AllOf(StartsWith("mirror '" + name + "'"), HasSubstr(describe(candidate)))));
+    EXPECT_THAT(ran.remarks,
+                Contains(AllOf(StartsWith("mirror '" + name + "'"), HasSubstr(describe(candidate)))));
   EXPECT_EQ(ran.counter("techniques_joined"), 3.0);
   EXPECT_EQ(ran.counter("rule_followed"), 1.0);
 
@@ -242,8 +243,8 @@ TEST_F(ReflectionNeedsTest, EachMirrorIsShownByItsOwnTechnique) {
   frame.end();
   std::map<std::string, int> seen;
   for (const auto& [name, candidate] : expected) {
-    // Vertex reflection refuses scenes with mirrors that no point sees as a whole: the figure's technique aside, the egg
-    // is rendered among mirrors of which it alone is shown.
+    // Vertex reflection refuses scenes with mirrors that no point sees as a whole: the figure's technique
+    // aside, the egg is rendered among mirrors of which it alone is shown.
     frame::Frame own(context(), scene, gpuScene, kNeedsSize);
     const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
                                    [&](const scene::Part& one) { return one.name == name; });
@@ -266,12 +267,13 @@ TEST_F(ReflectionNeedsTest, EachMirrorIsShownByItsOwnTechnique) {
   }
 }
 
-// Pane and figure are exact but for edges, and the egg's error is that of vertex reflection alone: more than the frame-wide
-// choice, the ray hierarchy for all.
+// Pane and figure are exact but for edges, and the egg's error is that of vertex reflection alone: more than
+// the frame-wide choice, the ray hierarchy for all.
 TEST_F(ReflectionNeedsTest, TheJoinedPictureIsComparedWithAllCandidates) {
   const scene::Scene scene =
       makeScene("mirrors/several", {{"tessellation", int64_t{12}}, {"motion", std::string("moving")}});
-  const Ran each = runOn(scene, {{"choose", std::string("each_mirror")}, {"check", std::string("whole_set")}});
+  const Ran each =
+      runOn(scene, {{"choose", std::string("each_mirror")}, {"check", std::string("whole_set")}});
   const Ran frameWide = runOn(scene, {{"check", std::string("whole_set")}});
   EXPECT_THAT(frameWide.remarks.at(0), StartsWith("chosen: reflections/ray_hierarchy"));
   EXPECT_GT(each.counter("check_rmse"), frameWide.counter("check_rmse"));
@@ -299,20 +301,23 @@ TEST_F(ReflectionNeedsTest, EachMirrorIsMeasuredWhereItIsSeen) {
 // A map has one place, planes are drawn together, and what moves itself is traced.
 TEST_F(ReflectionNeedsTest, MirrorsAreGroupedAsTechniquesAllow) {
   std::vector<ReflectorFacts> facts(5);
-  for (size_t i = 0; i < facts.size(); ++i) facts[i].part = uint32_t(i + 1), facts[i].name = std::to_string(i);
+  for (size_t i = 0; i < facts.size(); ++i)
+    facts[i].part = uint32_t(i + 1), facts[i].name = std::to_string(i);
   const Candidate map{"reflections/environment_map", {}}, rays{"reflections/ray_traced", {}};
   const auto planar = [](int64_t planes) {
     return Candidate{"reflections/planar_mirror", {{"planes", planes}}};
   };
   const std::vector<MirrorGroup> groups = groupsOf(
-      facts, std::vector<MirrorNeed>{{map, ""}, {planar(9), ""}, {map, ""}, {planar(7), ""}, {planar(1), ""}});
+      facts,
+      std::vector<MirrorNeed>{{map, ""}, {planar(9), ""}, {map, ""}, {planar(7), ""}, {planar(1), ""}});
   ASSERT_EQ(groups.size(), 4U);
   EXPECT_EQ(groups[0].parts, (std::vector<size_t>{1}));
   EXPECT_EQ(groups[1].parts, (std::vector<size_t>{2, 4}));
   EXPECT_EQ(describe(groups[1].candidate), describe(planar(16)));
   EXPECT_EQ(groups[2].parts, (std::vector<size_t>{3}));
   EXPECT_EQ(groups[3].parts, (std::vector<size_t>{5})) << "a seventeenth plane";
-  const Candidate alone = candidateOf(groupsOf(std::span(facts).first(1), std::vector<MirrorNeed>{{rays, ""}}));
+  const Candidate alone =
+      candidateOf(groupsOf(std::span(facts).first(1), std::vector<MirrorNeed>{{rays, ""}}));
   EXPECT_EQ(describe(alone), describe(rays)) << "nothing to join";
 
   const scene::Scene kitchen =
