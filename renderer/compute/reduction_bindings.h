@@ -42,10 +42,9 @@ const uint kReductionFlagsUnit = 1u;
 const uint kReductionSumsUnit = 1u;
 const uint kReductionCountUnit = 2u;
 
-// Scatter and append: a group takes a tile of kReductionRows rows of kReductionGroup x 16 bytes.
+// Bucket sort: a group takes so many rows of so many items.
 const int kReductionGroup = 256;
 const int kReductionRows = 4;
-const int kReductionLooks = 4;  // tiles that each invocation of a group looks back at together
 // A tile's state: a count in the low bits.
 const uint kReductionNothing = 0u;
 const uint kReductionOwn = 0x40000000u;  // the tile's own count

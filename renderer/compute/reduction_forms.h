@@ -55,12 +55,13 @@ inline void setStream(const gl::Program& program, const StreamInput& in, const S
   program.set("groupSize", out.groupSize);
 }
 
-/// Rows of groups, as no dimension has more than 65,535. Shaders number them by groupNumber().
-inline void dispatchGroups(uint32_t groups) {
+/// Rows of groups, as no dimension has more than 65,535. Shaders number them by groupNumber(). `barrier`:
+/// after them; 0: none.
+inline void dispatchGroups(uint32_t groups, GLbitfield barrier = GL_SHADER_STORAGE_BARRIER_BIT) {
   if (groups == 0) return;
   const uint32_t rows = (groups + 65534) / 65535;
   glDispatchCompute((groups + rows - 1) / rows, rows, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  if (barrier != 0) glMemoryBarrier(barrier);
 }
 
 inline uint32_t blocksOf(uint32_t items, uint32_t size) { return items == 0 ? 1 : (items - 1) / size + 1; }

@@ -86,6 +86,13 @@ struct ReductionSettings {
   /// holds is then copied to the output.
   int rowWidth = 2048;
   bool countFetches = false;  ///< see StreamReduction::fetches(); slower
+  // LookBack, ScanScatter, Append: a group of so many invocations takes so many times 16 bytes for each.
+  // Without subgroups of 32 invocations a group has 256, and 4 rows at most. 0: what was fastest on a GPU for
+  // the stream's length.
+  int group = 0, rows = 0;
+  bool tickets = false;  ///< LookBack: tiles in the order in which groups start, in place of their numbers
+  int looks = 2;  ///< LookBack, by subgroups: times four tiles that an invocation looks back at together
+  bool emulateSubgroups = false;  ///< a group of 32 stands for one of the device's subgroups: for tests
 };
 
 /// A stream. Buffers have at least bytesFor(most, lanes) bytes; those of flags bytesFor(most, 1).

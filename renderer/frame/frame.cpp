@@ -45,6 +45,12 @@ Frame::Frame(Frame& parent, const std::string& name, glm::ivec2 sizePx)
 Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene)
     : Frame(parent, name, scene, parent.sizePx_) {}
 
+Frame::Frame(Frame& parent, const std::string& name, const ShownMirrors& mirrors)
+    : Frame(parent, name, parent.scene_, parent.sizePx_) {
+  sharing_ = &parent;
+  shownMirrors_ = mirrors;
+}
+
 Frame::Frame(Frame& parent, const std::string& name, const scene::Scene& scene, glm::ivec2 sizePx)
     : context_(parent.context_),
       scene_(scene),

@@ -11,6 +11,7 @@
 #include "renderer/frame/gpu_scene.h"
 #include "renderer/frame/moved_vertices.h"
 #include "renderer/frame/scene_on_gpu.h"
+#include "renderer/frame/shown_mirrors.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_list.h"
 #include "renderer/gl/texture.h"
@@ -33,6 +34,8 @@ struct Seen {
 /// a frame first asks for it; its memory is kept for the next frame.
 class FrameInput {
  public:
+  /// Whether it depends on which mirrors are shown; see Frame::shownMirrors().
+  static constexpr bool kOfShownMirrors = false;
   virtual ~FrameInput() = default;
   /// Renders the input for the current frame; opens its own passes and states their bytes.
   virtual void make(Frame& frame) = 0;
@@ -55,6 +58,11 @@ class Frame {
 
   /// The same view within a frame of `parent`, but of `scene`: the parent's scene except for its lights.
   Frame(Frame& parent, const std::string& name, const scene::Scene& scene);
+
+  /// The same view within a frame of `parent`, of whose mirrors it shows `mirrors` alone. It shares all
+  /// inputs of its parent that do not depend on these, and what the parent is told: its levels, positions and
+  /// what it sees.
+  Frame(Frame& parent, const std::string& name, const ShownMirrors& mirrors);
 
   gl::Context& context() { return context_; }
   const scene::Scene& scene() const { return scene_; }
@@ -82,22 +90,39 @@ class Frame {
   /// Replaces vertex positions, of all levels, three floats each relative to the anchor; null: the scene's.
   /// Not for scenes whose parts move.
   void setPositions(const gl::Buffer* positions) { positions_ = positions; }
+  /// Mirrors that reflect where they are seen; others look like surfaces that do not. In other mirrors all of
+  /// them reflect as ever. Without a call: all. Call it before the first get().
+  void setShownMirrors(const ShownMirrors& mirrors) { shownMirrors_ = mirrors; }
+  const ShownMirrors& shownMirrors() const { return shownMirrors_; }
   /// Storage of the surfaces' shading, with the normals of this frame.
   void bindSurfaces() const;
   /// The vertices' positions of this frame.
-  const gl::Buffer& positions() const { return positions_ ? *positions_ : gpuScene_.positions(); }
+  const gl::Buffer& positions() const {
+    if (sharing_) return sharing_->positions();
+    return positions_ ? *positions_ : gpuScene_.positions();
+  }
   /// Where parts move; null: all rest.
   const MovedVertices* moved() const { return moved_.get(); }
   /// Fills the G-buffer from chosen positions instead of rasterising. Call it before the first get(); the
   /// textures must hold what is seen when an input is made, and outlive this frame.
   void setSeen(const Seen& seen) { seen_ = seen; }
-  const Seen* seen() const { return seen_.ids ? &seen_ : nullptr; }  ///< null: what lies behind the centres
+  /// Null: what lies behind the centres.
+  const Seen* seen() const {
+    if (sharing_) return sharing_->seen();
+    return seen_.ids ? &seen_ : nullptr;
+  }
   /// Takes shadow maps from another view, whose levels cast the shadows here; null: from this one. Call its
   /// begin() first; it must outlive this frame.
   void setCasters(Frame* casters) { casters_ = casters; }
-  Frame& casters() { return casters_ ? *casters_ : *this; }
+  Frame& casters() {
+    if (sharing_) return sharing_->casters();
+    return casters_ ? *casters_ : *this;
+  }
   /// What inputs rasterise.
-  Geometry geometry() const { return {gpuScene_, ranges_.get(), positions_}; }
+  Geometry geometry() const {
+    if (sharing_) return sharing_->geometry();
+    return {gpuScene_, ranges_.get(), positions_};
+  }
 
   /// Starts a frame: inputs are stale and are made again on request. Parts that move are where they are at
   /// the frame's time; of a view within another frame, at that frame's.
@@ -106,6 +131,8 @@ class Frame {
 
   template <class Input, class... Settings>
   const Input& get(const Settings&... settings) {
+    if constexpr (!Input::kOfShownMirrors)
+      if (sharing_) return sharing_->get<Input>(settings...);
     std::string key = Input::kName;
     ((key += "|" + settings.key()), ...);
     Entry& entry = entries_[key];
@@ -141,6 +168,8 @@ class Frame {
   std::shared_ptr<const MovedVertices> moved_;  // null: all rest
   const gl::Buffer* positions_ = nullptr;
   Frame* casters_ = nullptr;
+  Frame* sharing_ = nullptr;  // whose inputs these are
+  ShownMirrors shownMirrors_;
   Seen seen_;
   std::map<std::string, Entry> entries_;
   uint64_t number_ = 0;

@@ -208,6 +208,7 @@ const uint kReceiversFromPlanesImage = 1u;
 
 // Rays from mirrors.
 const uint kMirrorRaysIdsUnit = 0u;
+const uint kMirrorRaysShownBuffer = 6u;
 const uint kMirrorRaysOriginsImage = 0u;
 const uint kMirrorRaysDirectionsImage = 1u;
 const float kTotalReflectionCosine = 2.0f;

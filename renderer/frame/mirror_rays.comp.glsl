@@ -6,6 +6,9 @@ layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kMirrorRaysIdsUnit) uniform usampler2D triangleIds;
 layout(binding = kMirrorRaysOriginsImage, rgba32f) uniform writeonly image2D origins;
 layout(binding = kMirrorRaysDirectionsImage, rgba32f) uniform writeonly image2D directions;
+#ifdef SHOWN
+layout(std430, binding = kMirrorRaysShownBuffer) readonly buffer Shown { uint shownTriangles[]; };  // a bit each
+#endif
 
 uniform ivec2 sizePx;
 #include "renderer/frame/mirrored.glsl"
@@ -23,6 +26,9 @@ void main() {
   const bool refracts =
       id != 0xffffffffu && surfaceMaterials[surfaceMaterialOf[id]].transmittance != vec3(0.0);
   hasRay = hasRay || refracts;
+#endif
+#ifdef SHOWN
+  hasRay = hasRay && (shownTriangles[id / 32u] >> (id % 32u) & 1u) != 0u;
 #endif
   if (hasRay) {
     SeenPoint seen;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "renderer/frame/frame.h"
+#include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 
@@ -31,6 +33,7 @@ struct RefractionSetting {
 class MirrorRays : public FrameInput {
  public:
   static constexpr const char* kName = "mirror_rays";
+  static constexpr bool kOfShownMirrors = true;
   explicit MirrorRays(Frame& frame, RefractionSetting setting = {});
   void make(Frame& frame) override;
   /// RGBA32F: point of the mirror, relative to the scene's anchor; w = 1: a ray starts here, 0: none.
@@ -42,6 +45,7 @@ class MirrorRays : public FrameInput {
  private:
   const gl::Program& program_;
   gl::Texture origins_, directions_;
+  std::optional<gl::Buffer> shown_;  ///< a bit for each triangle; none: all mirrors are shown
 };
 
 /// The rays that a technique follows first.

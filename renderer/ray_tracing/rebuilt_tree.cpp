@@ -158,7 +158,7 @@ void RebuiltTree::refit(gl::PassList& passes, const gl::Buffer& positions, const
   wideNodes_.bindStorage(kTreeWideNodesBuffer);
   wideTriangles_.bindStorage(kTreeWideTrianglesBuffer);
   alone_->set("begins", 1);
-  alone_->set("most", static_cast<uint32_t>(kTreeCollapseGroup));
+  alone_->set("most", static_cast<uint32_t>(kTreeAloneGroup / 8));
   dispatchGroups(*alone_, 1);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.id());
   level_->use();

@@ -9,9 +9,10 @@ namespace limen::ray_tracing {
 #endif
 
 const int kTreeGroup = 256;
-const int kTreeDigits = 256;    // of a pass of the sort: 8 bits
-const int kTreeSortRounds = 4;  // of kTreeGroup items each, that a group takes in a pass
-const int kTreeCollapseGroup = 64;
+const int kTreeDigits = 256;        // of a pass of the sort: 8 bits
+const int kTreeSortRounds = 4;      // of kTreeGroup items each, that a group takes in a pass
+const int kTreeCollapseGroup = 64;  // eight invocations a node of the wide tree
+const int kTreeAloneGroup = 512;    // of the one group that takes levels of few nodes
 const uint kTreeNone = 0xffffffffu;
 const uint kTreeMostLeaf = 3u;  // triangles of a leaf
 

@@ -8,7 +8,12 @@
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
 #include "renderer/ray_tracing/tree_triangles.glsl"
 
-layout(local_size_x = kTreeCollapseGroup) in;
+#ifdef ALONE
+const int kGroup = kTreeAloneGroup;
+#else
+const int kGroup = kTreeCollapseGroup;
+#endif
+layout(local_size_x = kGroup) in;
 layout(std430, binding = kTreeControlBuffer) coherent buffer Control { TreeControl control; };
 layout(std430, binding = kTreeTasksBuffer) coherent buffer Tasks { uint tasks[]; };  // binary node of each wide one
 layout(std430, binding = kTreeOrderBuffer) readonly buffer Order { uint order[]; };
@@ -21,73 +26,103 @@ uniform bool begins;  // at the root
 uniform uint most;
 #endif
 
-struct Child {
-  vec3 low, high;
-  uint node, first, count, height;
-};
+// Eight invocations make a node together, each has one of its children.
+const uint kTeams = uint(kGroup) / 8u;
+shared uint childCount[kGroup], childLeft[kGroup], childRight[kGroup];
+shared float childCost[kGroup];
+shared uint slotCount[kGroup];
+shared uint firstNodes[kTeams], firstTriangles[kTeams];
+shared uint nodeWords[kTeams * 20u];
 
-Child childOf(uint node) {
-  const BinaryNode of = nodes[node];
-  return Child(of.low, of.high, node, of.first, of.count, of.height);
-}
-
-float halfArea(Child child) {
-  const vec3 extent = child.high - child.low;
+float halfArea(BinaryNode node) {
+  const vec3 extent = node.high - node.low;
   return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
 }
 
-// Opens children until there are eight.
-uint divide(inout Child children[8], bool byHeight) {
-  uint count = 1u;
-  while (count < 8u) {
+// Of `count` children, those of invocations from `team` on; -1: none is left to open.
+int childToOpen(uint team, uint count) {
+  // Leaves last, and the longest of what costs the same.
+  for (int leaves = 0; leaves < 2; ++leaves) {
     int best = -1;
     float cost = 0.0;
     uint length_ = 0u;
-    // Leaves last, and the longest of what costs the same.
-    for (int leaves = 0; leaves < 2 && best < 0; ++leaves)
-      for (uint i = 0u; i < count; ++i) {
-        const Child child = children[i];
-        if (child.count < 2u || (child.count <= kTreeMostLeaf) != (leaves == 1)) continue;
-        const float own = leaves == 1 ? halfArea(child) * float(child.count)
-                                      : byHeight ? float(child.height) : halfArea(child);
-        if (best < 0 || own > cost || (own == cost && child.count > length_)) {
-          best = int(i);
-          cost = own;
-          length_ = child.count;
-        }
+    for (uint i = 0u; i < count; ++i) {
+      const uint triangles = childCount[team + i];
+      if (triangles < 2u || (triangles <= kTreeMostLeaf) != (leaves == 1)) continue;
+      const float own = childCost[team + i];
+      if (best < 0 || own > cost || (own == cost && triangles > length_)) {
+        best = int(i);
+        cost = own;
+        length_ = triangles;
       }
-    if (best < 0) break;
-    const BinaryNode opened = nodes[children[best].node];
-    children[best] = childOf(opened.left);
-    children[count++] = childOf(opened.right);
+    }
+    if (best >= 0) return best;
+  }
+  return -1;
+}
+
+// Opens children until there are eight; returns how many there are. `own`: the node of this number, then the invocation's child.
+uint divide(inout BinaryNode own, inout uint node, uint count, bool byHeight) {
+  const uint me = gl_LocalInvocationIndex, lane = me & 7u, team = me - lane;
+  for (int round = 0; round < 7; ++round) {
+    childCount[me] = own.count;
+    childCost[me] = own.count <= kTreeMostLeaf ? halfArea(own) * float(own.count)
+                                               : byHeight ? float(own.height) : halfArea(own);
+    childLeft[me] = own.left;
+    childRight[me] = own.right;
+    barrier();
+    const int opened = childToOpen(team, count);
+    uint left = 0u, right = 0u;
+    if (opened >= 0) {
+      left = childLeft[team + uint(opened)];
+      right = childRight[team + uint(opened)];
+    }
+    barrier();
+    if (opened < 0) continue;
+    if (int(lane) == opened || lane == count) {
+      node = int(lane) == opened ? left : right;
+      own = nodes[node];
+    }
+    ++count;
   }
   return count;
 }
 
-// Which child lies in each octant of the node; -1: none. The child that is farthest out chooses first.
-void setSlots(Child children[8], uint count, vec3 middle, out int childIn[8]) {
-  for (int slot = 0; slot < 8; ++slot) childIn[slot] = -1;
-  uint placed = 0u;
-  for (uint n = 0u; n < count; ++n) {
+// In which octant of the node the invocation's child lies. The child that is farthest out chooses first.
+uint chosenSlot(BinaryNode own, uint count, vec3 middle) {
+  const uint me = gl_LocalInvocationIndex, lane = me & 7u, team = me - lane;
+  const vec3 from = (0.5 * own.low + 0.5 * own.high) - middle;
+  uint free = 0xffu, slot = 0u;
+  bool placed = lane >= count;
+  for (uint n = 0u; n < 8u; ++n) {
     float farthest = 0.0;
-    int bestChild = -1, bestSlot = -1;
-    for (uint i = 0u; i < count; ++i) {
-      if ((placed & 1u << i) != 0u) continue;
-      const vec3 from = (0.5 * children[i].low + 0.5 * children[i].high) - middle;
-      for (int slot = 0; slot < 8; ++slot) {
-        if (childIn[slot] >= 0) continue;
-        const float along = ((slot & 4) != 0 ? from.x : -from.x) + ((slot & 2) != 0 ? from.y : -from.y) +
-                            ((slot & 1) != 0 ? from.z : -from.z);
-        if (bestChild < 0 || along > farthest) {
-          farthest = along;
-          bestChild = int(i);
-          bestSlot = slot;
-        }
+    uint best = kTreeNone;
+    for (uint i = 0u; i < 8u; ++i) {
+      if (placed || (free >> i & 1u) == 0u) continue;
+      const float along = ((i & 4u) != 0u ? from.x : -from.x) + ((i & 2u) != 0u ? from.y : -from.y) +
+                          ((i & 1u) != 0u ? from.z : -from.z);
+      if (best == kTreeNone || along > farthest) {
+        farthest = along;
+        best = i;
       }
     }
-    childIn[bestSlot] = bestChild;
-    placed |= 1u << uint(bestChild);
+    childCost[me] = farthest;
+    childLeft[me] = best;
+    barrier();
+    uint chosen = kTreeNone;
+    for (uint i = 0u; i < count; ++i)
+      if (childLeft[team + i] != kTreeNone && (chosen == kTreeNone || childCost[team + i] > childCost[team + chosen]))
+        chosen = i;
+    const uint taken = chosen == kTreeNone ? 0u : childLeft[team + chosen];
+    barrier();
+    if (chosen == kTreeNone) continue;
+    free &= ~(1u << taken);
+    if (chosen == lane) {
+      slot = taken;
+      placed = true;
+    }
   }
+  return slot;
 }
 
 // A power of two by its biased exponent.
@@ -117,72 +152,99 @@ uvec2 onGrid(float boxLow, float boxHigh, float origin, double pitch) {
   return uvec2(low, high);
 }
 
-void writeTriangle(uint at, uint sorted) {
-  const uint triangle = order[sorted];
-  const uvec3 t = treeTriangle(triangle);
-  wideTriangles[3u * at] = vec4(treeVertex(t.x), uintBitsToFloat(triangle));
-  wideTriangles[3u * at + 1u] = vec4(treeVertex(t.y), 0.0);
-  wideTriangles[3u * at + 2u] = vec4(treeVertex(t.z), 0.0);
+// Up to three triangles from `first` on in the sorted order, read together.
+void writeTriangles(uint at, uint first, uint count) {
+  uint triangle[kTreeMostLeaf];
+  uvec3 vertices[kTreeMostLeaf];
+  for (uint i = 0u; i < kTreeMostLeaf; ++i) triangle[i] = order[first + min(i, count - 1u)];
+  for (uint i = 0u; i < kTreeMostLeaf; ++i) vertices[i] = treeTriangle(triangle[i]);
+  vec4 corners[3u * kTreeMostLeaf];
+  for (uint i = 0u; i < kTreeMostLeaf; ++i) {
+    corners[3u * i] = vec4(treeVertex(vertices[i].x), uintBitsToFloat(triangle[i]));
+    corners[3u * i + 1u] = vec4(treeVertex(vertices[i].y), 0.0);
+    corners[3u * i + 2u] = vec4(treeVertex(vertices[i].z), 0.0);
+  }
+  for (uint i = 0u; i < kTreeMostLeaf; ++i)
+    if (i < count)
+      for (uint k = 0u; k < 3u; ++k) wideTriangles[3u * (at + i) + k] = corners[3u * i + k];
 }
 
-void writeNode(uint wide, uint level) {
-  Child children[8];
-  children[0] = childOf(tasks[wide]);
-  const vec3 low = children[0].low, high = children[0].high;
+// By all invocations of the group; `has`, whether there is such a node, is the same for eight.
+void writeNode(uint wide, uint level, bool has) {
+  const uint me = gl_LocalInvocationIndex, lane = me & 7u, team = me - lane, number = me / 8u;
+  BinaryNode own = BinaryNode(vec3(0.0), 0u, vec3(0.0), 0u, 0u, 0u, 0u, 0u);
+  uint node = has ? tasks[wide] : 0u;
+  if (has) own = nodes[node];
+  const vec3 low = own.low, high = own.high;
   // Levels below this one, and how many are needed if the largest child is opened.
-  const uint left = uint(kRayStack) - 1u - level, height = children[0].height;
-  const uint count = divide(children, height > 0u && (height + 1u) / 3u > left);
-  int childIn[8];
-  setSlots(children, count, 0.5 * low + 0.5 * high, childIn);
+  const uint left = uint(kRayStack) - 1u - level, height = own.height;
+  const uint count = divide(own, node, has ? 1u : 0u, height > 0u && (height + 1u) / 3u > left);
+  const uint slot = chosenSlot(own, count, 0.5 * low + 0.5 * high);
 
-  uint inner = 0u, triangles = 0u;
-  for (uint i = 0u; i < count; ++i) {
-    if (children[i].count > kTreeMostLeaf) ++inner;
-    else triangles += children[i].count;
+  slotCount[me] = 0u;
+  for (uint i = lane; i < 20u; i += 8u) nodeWords[20u * number + i] = 0u;
+  barrier();
+  const bool hasChild = lane < count;
+  if (hasChild) slotCount[team + slot] = own.count;
+  barrier();
+  uint inner = 0u, innerBefore = 0u, triangles = 0u, trianglesBefore = 0u, innerMask = 0u;
+  for (uint i = 0u; i < 8u; ++i) {
+    const uint in_ = slotCount[team + i];
+    if (in_ > kTreeMostLeaf) {
+      if (i < slot) ++innerBefore;
+      ++inner;
+      innerMask |= 1u << i;
+    } else {
+      if (i < slot) trianglesBefore += in_;
+      triangles += in_;
+    }
   }
-  const uint firstNode = inner > 0u ? atomicAdd(control.nodes, inner) : 0u;
-  const uint firstTriangle = triangles > 0u ? atomicAdd(control.triangles, triangles) : 0u;
+  if (lane == 0u) firstNodes[number] = inner > 0u ? atomicAdd(control.nodes, inner) : 0u;
+  if (lane == 1u) firstTriangles[number] = triangles > 0u ? atomicAdd(control.triangles, triangles) : 0u;
+  barrier();
+  const uint firstNode = firstNodes[number], firstTriangle = firstTriangles[number];
 
   const ivec3 exponents =
       ivec3(gridExponent(low.x, high.x), gridExponent(low.y, high.y), gridExponent(low.z, high.z));
-  uint innerMask = 0u, nextNode = firstNode, place = 0u;
-  uint metas[2] = uint[2](0u, 0u);
-  uint lows[3][2] = uint[3][2](uint[2](0u, 0u), uint[2](0u, 0u), uint[2](0u, 0u));
-  uint highs[3][2] = lows;
-  for (int slot = 0; slot < 8; ++slot) {
-    if (childIn[slot] < 0) continue;
-    const Child child = children[childIn[slot]];
-    const int word = slot / 4, shift = 8 * (slot & 3);
+  const uint words = 20u * number;
+  if (hasChild) {
+    const uint word = slot / 4u, shift = 8u * (slot & 3u);
     uint meta;
-    if (child.count > kTreeMostLeaf) {
-      innerMask |= 1u << uint(slot);
-      meta = 0x38u + uint(slot);
-      tasks[nextNode++] = child.node;
+    if (own.count > kTreeMostLeaf) {
+      meta = 0x38u + slot;
+      tasks[firstNode + innerBefore] = node;
     } else {
-      meta = ((1u << child.count) - 1u) << 5u | place;
-      for (uint i = 0u; i < child.count; ++i) writeTriangle(firstTriangle + place + i, child.first + i);
-      place += child.count;
+      meta = ((1u << own.count) - 1u) << 5u | trianglesBefore;
+      writeTriangles(firstTriangle + trianglesBefore, own.first, own.count);
     }
-    metas[word] |= meta << shift;
-    for (int axis = 0; axis < 3; ++axis) {
-      const uvec2 steps = onGrid(child.low[axis], child.high[axis], low[axis], powerOf(exponents[axis]));
-      lows[axis][word] |= steps.x << shift;
-      highs[axis][word] |= steps.y << shift;
+    atomicOr(nodeWords[words + 6u + word], meta << shift);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      const uvec2 steps = onGrid(own.low[axis], own.high[axis], low[axis], powerOf(exponents[axis]));
+      atomicOr(nodeWords[words + 8u + 2u * axis + word], steps.x << shift);
+      atomicOr(nodeWords[words + 14u + 2u * axis + word], steps.y << shift);
     }
   }
-  wideNodes[5u * wide] = uvec4(floatBitsToUint(low), uint(exponents.x) | uint(exponents.y) << 8 |
-                                                         uint(exponents.z) << 16 | innerMask << 24);
-  wideNodes[5u * wide + 1u] = uvec4(firstNode, firstTriangle, metas[0], metas[1]);
-  wideNodes[5u * wide + 2u] = uvec4(lows[0][0], lows[0][1], lows[1][0], lows[1][1]);
-  wideNodes[5u * wide + 3u] = uvec4(lows[2][0], lows[2][1], highs[0][0], highs[0][1]);
-  wideNodes[5u * wide + 4u] = uvec4(highs[1][0], highs[1][1], highs[2][0], highs[2][1]);
+  if (lane == 0u) {
+    nodeWords[words] = floatBitsToUint(low.x);
+    nodeWords[words + 1u] = floatBitsToUint(low.y);
+    nodeWords[words + 2u] = floatBitsToUint(low.z);
+    nodeWords[words + 3u] = uint(exponents.x) | uint(exponents.y) << 8 | uint(exponents.z) << 16 | innerMask << 24;
+    nodeWords[words + 4u] = firstNode;
+    nodeWords[words + 5u] = firstTriangle;
+  }
+  barrier();
+  if (has && lane < 5u) {
+    const uint from = words + 4u * lane;
+    wideNodes[5u * wide + lane] =
+        uvec4(nodeWords[from], nodeWords[from + 1u], nodeWords[from + 2u], nodeWords[from + 3u]);
+  }
 }
 
 void setNextLevel() {
   control.levelFirst = control.levelEnd;
   control.levelEnd = atomicAdd(control.nodes, 0u);
-  const uint groups =
-      (control.levelEnd - control.levelFirst + uint(kTreeCollapseGroup) - 1u) / uint(kTreeCollapseGroup);
+  const uint each = uint(kTreeCollapseGroup) / 8u;  // nodes
+  const uint groups = (control.levelEnd - control.levelFirst + each - 1u) / each;
   // Rows of groups: no dimension has more than 65,535.
   const uint rows = (groups + 65534u) / 65535u;
   control.groupsX = rows > 0u ? (groups + rows - 1u) / rows : 0u;
@@ -223,7 +285,8 @@ void main() {
     barrier();
     const uint first = sharedFirst, end = sharedEnd;
     if (end - first > most || end == first) break;
-    for (uint wide = first + me; wide < end; wide += uint(kTreeCollapseGroup)) writeNode(wide, sharedLevel);
+    const uint level = sharedLevel;
+    for (uint from = first; from < end; from += kTeams) writeNode(from + me / 8u, level, from + me / 8u < end);
     memoryBarrierBuffer();
     barrier();
     if (me == 0u) setNextLevel();
@@ -232,9 +295,9 @@ void main() {
 #else
 void main() {
   const uint first = control.levelFirst, end = control.levelEnd, level = control.level;
-  const uint wide = first + (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(kTreeCollapseGroup) +
-                    gl_LocalInvocationIndex;
-  if (wide < end) writeNode(wide, level);
+  const uint wide = first + (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kTeams +
+                    gl_LocalInvocationIndex / 8u;
+  writeNode(wide, level, wide < end);
   memoryBarrierBuffer();
   barrier();
   if (gl_LocalInvocationIndex == 0u) {

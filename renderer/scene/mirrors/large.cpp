@@ -16,6 +16,7 @@ struct MirrorHerdSettings {
   int figures = 1000, tessellation = 4;
   double reflectance = 0.5;
   int64_t seed = 1;
+  ObjectMotion motion;
   static const SettingsTable<MirrorHerdSettings>& table() {
     using S = MirrorHerdSettings;
     static const SettingsTable<S> kTable = {
@@ -27,10 +28,14 @@ struct MirrorHerdSettings {
          "Segments in a quarter circle of each of nine limbs; 4: 1152 triangles a figure",
          "Roger 2008, section 3.5 (a million triangles)"},
         {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that the ground reflects"},
-        {&S::seed, "seed", {0, 1000000}, "", "Seed of places and sizes"}};
+        {&S::seed, "seed", {0, 1000000}, "", "Seed of places and sizes"},
+        {&S::motion, "motion", kMotionText}};
     return kTable;
   }
 };
+
+/// Parts that move; figures that follow one another in the list share one and move alike.
+constexpr int kMovingGroups = 32;
 
 Scene buildMirrorHerd(const MirrorHerdSettings& settings) {
   Scene scene;
@@ -44,18 +49,38 @@ Scene buildMirrorHerd(const MirrorHerdSettings& settings) {
           Role::ReceiverOnly);
   const Mesh figure = statue(settings.tessellation);
   Random random(settings.seed);
-  Mesh herd;
+  std::vector<Mesh> herd;
+  std::vector<glm::dvec3> places;
+  const bool moves = std::holds_alternative<ObjectsInMotion>(settings.motion);
+  const int inPart = moves ? (settings.figures + kMovingGroups - 1) / kMovingGroups : settings.figures;
   for (int i = 0; i < settings.figures; ++i) {
     const double x = (i % aside + random.uniform(0.1, 0.9)) * 0.8 - 0.5 * extent,
                  z = (i / aside + random.uniform(0.1, 0.9)) * 0.8 - 0.5 * extent;
-    append(herd, movedMesh(figure, random.uniform(0.7, 1.2), random.uniform(0.0, 360.0), {x, 0.0, z}));
+    if (i % inPart == 0) {
+      herd.emplace_back();
+      places.emplace_back(x, 0.0, z);
+    }
+    append(herd.back(), movedMesh(figure, random.uniform(0.7, 1.2), random.uniform(0.0, 360.0), {x, 0.0, z}));
   }
   Material skin;
   skin.name = "herd";
   skin.albedo = glm::vec3(0.6F, 0.42F, 0.3F);
-  skin.pattern.kind = Pattern::Kind::ValueNoise;
-  skin.pattern.size = 0.2;
-  addPart(scene, herd, skin);
+  if (!moves) {
+    // A pattern is one of space, through which nothing may move.
+    skin.pattern.kind = Pattern::Kind::ValueNoise;
+    skin.pattern.size = 0.2;
+  }
+  for (size_t i = 0; i < herd.size(); ++i) {
+    addPart(scene, herd[i], skin);
+    // Each at a pace and in a direction of its own; a figure alone turns as well, several would sweep across
+    // others.
+    const double angle = 2.4 * double(i);
+    moveLastPart(scene, settings.motion,
+                 {.pivot = places[i],
+                  .turnDegS = inPart == 1 ? (i % 2 == 0 ? 40.0 : -40.0) : 0.0,
+                  .travel = 0.3 * glm::dvec3(std::cos(angle), 0.0, std::sin(angle)),
+                  .periodS = 2.0 + 0.5 * double(i % 4)});
+  }
   scene.lights = {lightTowards({-0.8 * extent, 1.4 * extent + 4.0, 0.9 * extent}, glm::dvec3(0.0),
                                glm::dvec2(0.1 * extent))};
   setStillCamera(scene,
@@ -66,7 +91,8 @@ Scene buildMirrorHerd(const MirrorHerdSettings& settings) {
 const RegisteredScene<MirrorHerdSettings> kMirrorHerd{
     {.name = "mirrors/herd",
      .version = 1,
-     .summary = "A thousand figures, over a million triangles, on a mirroring ground",
+     .summary =
+         "A thousand figures, over a million triangles, on a mirroring ground; they may walk to and fro",
      .source = "stand-in for Roger 2008, Fig. 3.10 (Alley)"},
     buildMirrorHerd};
 

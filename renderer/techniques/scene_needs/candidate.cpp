@@ -13,6 +13,7 @@ ParameterValues completeValues(const Candidate& candidate) {
 }
 
 std::unique_ptr<Technique> makeTechnique(const Candidate& candidate) {
+  if (candidate.make) return candidate.make();
   return TechniqueRegistry::instance().get(candidate.technique).make(completeValues(candidate));
 }
 
@@ -22,6 +23,7 @@ bool takes(const TechniqueInfo& info, const std::string& path) {
 }
 
 std::string describe(const Candidate& candidate) {
+  if (candidate.make) return candidate.technique + ": " + candidate.details;
   const TechniqueInfo* info = TechniqueRegistry::instance().find(candidate.technique);
   const std::vector<DeclaredAt> declared = info ? flatten(info->parameters) : std::vector<DeclaredAt>{};
   const auto isUsualChoice = [&](const std::string& path, const ParameterValue& value) {
@@ -37,11 +39,13 @@ std::string describe(const Candidate& candidate) {
 }
 
 std::string obstacleTo(const Candidate& candidate, const scene::Scene& scene) {
+  if (candidate.make) return "";
   try {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(candidate.technique);
     const auto traits = scene.traits();
     for (const std::string& trait : info.needs)
       if (traits.count(trait) == 0) return "the scene has no " + trait;
+    if (traits.count("moving_parts") && !info.followsMotion) return "it does not follow parts that move";
     const ParameterValues values = completeValues(candidate);
     if (info.check) info.check(values);
   } catch (const Error& error) {

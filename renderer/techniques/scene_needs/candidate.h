@@ -16,6 +16,10 @@ namespace limen::techniques {
 struct Candidate {
   std::string technique;                        ///< as registered
   std::map<std::string, ParameterValue> given;  ///< by path; the rest takes its defaults
+  /// What makes it in place of a registered technique, and what tells it from others made so; null:
+  /// registered.
+  std::function<std::unique_ptr<Technique>()> make = {};
+  std::string details = {};
 };
 
 /// Its settings, complete. Throws Error on a value that the technique does not take.

@@ -50,6 +50,7 @@ std::vector<double> FrameClock::framesMs(const Candidate& candidate) {
   const std::unique_ptr<Technique> technique = makeTechnique(candidate);
   frame::Frame frame(frame_.context(), frame_.scene(), frame_.gpuScene(), frame_.sizePx(), frame_.timeS(),
                      frame_.raster());
+  frame.setShownMirrors(frame_.shownMirrors());
   technique->prepare(frame);
   const auto waking = steady_clock::now();
   const bool dozes = !software() && secondsSince(lastBusy_) > kDozingSeconds;

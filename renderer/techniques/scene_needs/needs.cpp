@@ -30,6 +30,7 @@ class Renderings {
   Image render(const Candidate& candidate) const {
     const std::unique_ptr<Technique> technique = makeTechnique(candidate);
     frame::Frame frame = frameOf();
+    frame.setShownMirrors(like_.shownMirrors());
     technique->prepare(frame);
     frame.begin();
     technique->render(frame);
@@ -43,6 +44,7 @@ class Renderings {
     ReferencePair out{sampled(firstSeed), {}, {}};
     out.second = subject.exact ? out.first : sampled(firstSeed + 1);
     frame::Frame frame = frameOf();
+    frame.setShownMirrors(like_.shownMirrors());
     frame.begin();
     out.mask = subject.mask(frame);
     frame.end();

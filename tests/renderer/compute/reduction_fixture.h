@@ -123,6 +123,11 @@ inline std::vector<ReductionSettings> ReductionTest::settingsOfAllForms() {
   for (const ReductionForm form : {ReductionForm::LookBack, ReductionForm::ScanScatter, ReductionForm::Append,
                                    ReductionForm::GeometryShader})
     add({.form = form});
+  // As devices with subgroups have them: a group of 32 stands for one.
+  for (const ReductionForm form :
+       {ReductionForm::LookBack, ReductionForm::ScanScatter, ReductionForm::Append})
+    for (const int rows : {2, 8})
+      add({.form = form, .group = 32, .rows = rows, .tickets = rows == 2, .emulateSubgroups = true});
   for (const int blockSize : {8, 64, 512})
     add({.form = ReductionForm::BlockSequential, .blockSize = blockSize});
   for (const ItemSearch search : {ItemSearch::Fixed, ItemSearch::Improved}) {

@@ -25,7 +25,26 @@ TEST_F(StreamReductions, KeepTheValidItemsInOrderForAnyCount) {
   }
 }
 
-// The second word of a ReducedCount, as an earlier reduction leaves it.
+// Around 2^22 items: none, all, every other, and some; by what runs here and as devices with subgroups have
+// it.
+TEST_F(StreamReductions, KeepTheItemsOfLongStreams) {
+  constexpr uint32_t kLong = 1U << 22;
+  const ReductionSettings emulated{
+      .form = ReductionForm::LookBack, .group = 32, .rows = 8, .emulateSubgroups = true};
+  for (const ReductionSettings& settings : {ReductionSettings{}, emulated}) {
+    const StreamReduction reduction(context(), kLong + 1, settings);
+    for (const uint32_t count : {kLong - 1, kLong + 1})
+      for (const uint32_t every : {0U, 1U, 2U, 5U}) {
+        std::vector<bool> valid(count);
+        for (uint32_t i = 0; i < count; ++i) valid[i] = every > 0 && i % every == 0;
+        const Items in = itemsOf(valid, settings);
+        // Compared as a whole: a message would be long.
+        ASSERT_TRUE(reduced(reduction, settings, in) == sequentially(in, settings))
+            << describe(settings) << ", " << count << " items, every " << every;
+      }
+  }
+}
+
 // Roger 2008, L1788 to L1815: blocks of 16, X invalid. Blocks of 8 and 32 must give the same.
 TEST_F(StreamReductions, ReduceTheWorkedExampleOfTheThesis) {
   const std::string text = "43X192XX7X6X58X5431X2X6XX7X98XX5X87XX235XXX6XX1X1XXX45X7X6X8329X";

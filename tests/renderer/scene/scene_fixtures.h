@@ -109,6 +109,7 @@ inline Given needed(const std::string& scene) {
   if (scene == "curved/herd") return {{"animals", int64_t{2}}};
   if (scene == "mirrors/mesh") return {{"file", smallMeshFile()}};
   if (scene == "mirrors/herd") return {{"figures", int64_t{4}}};
+  if (scene == "mirrors/several") return {{"tessellation", int64_t{8}}};
   if (scene == "mirrors/bunny") return {{"detail", 0.01}};
   // Only runs have a length.
   if (scene == "stream") return {{"distribution", std::string("runs")}};

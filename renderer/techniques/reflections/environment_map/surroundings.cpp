@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/base/error.h"
+#include "renderer/techniques/reflections/moving_mirrors.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 
 namespace limen::techniques {
@@ -18,12 +18,13 @@ struct MapReflector {
   glm::dvec3 middle{0.0};
 };
 
-MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor) {
+MapReflector largestMapReflector(const scene::Scene& scene, glm::dvec3 anchor,
+                                 const frame::ShownMirrors& shown) {
   MapReflector best;
   double most = -1.0;
   for (size_t p = 0; p < scene.parts.size(); ++p) {
     const scene::Part& part = scene.parts[p];
-    if (!scene.materials[part.material].reflects()) continue;
+    if (!shown.has(p) || !scene.materials[part.material].reflects()) continue;
     double area = 0.0;
     scene::Bounds bounds;
     for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t) {
@@ -49,12 +50,8 @@ Surroundings::Surroundings(frame::Frame& frame, int resolution, bool mipLevels,
                            const frame::ShadedSetting& shading, int layers)
     : shading_(shading) {
   const scene::Scene& scene = frame.scene();
-  for (const scene::PartMotion& motion : scene.motions)
-    if (scene.materials[scene.parts[motion.part].material].reflects())
-      throw Error("a map of a mirror's surroundings has one place, and part '" +
-                      scene.parts[motion.part].name + "' moves",
-                  scene.name, "choose reflections/ray_traced or reflections/ray_hierarchy");
-  const MapReflector reflector = largestMapReflector(scene, frame.gpuScene().anchor());
+  refuseMovingMirrors(frame, "a map of a mirror's surroundings has one place");
+  const MapReflector reflector = largestMapReflector(scene, frame.gpuScene().anchor(), frame.shownMirrors());
   part_ = reflector.part, middle_ = reflector.middle;
   std::vector<uint32_t> partOf(scene.mesh.triangles.size());
   for (size_t p = 0; p < scene.parts.size(); ++p)

@@ -9,7 +9,8 @@
 
 namespace limen::techniques {
 
-MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int most) {
+MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int most,
+                              const frame::ShownMirrors& shown) {
   struct Found {
     glm::dvec4 plane;
     double area = 0.0;
@@ -21,8 +22,9 @@ MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int 
   const double tolerance = 0x1p-20 * scene.bounds().diagonal();
   MirrorPlanes out;
   out.planeOf.assign(scene.mesh.triangles.size(), MirrorPlanes::kNone);
-  for (const scene::Part& part : scene.parts) {
-    if (!scene.materials[part.material].reflects()) continue;
+  for (size_t p = 0; p < scene.parts.size(); ++p) {
+    const scene::Part& part = scene.parts[p];
+    if (!shown.has(p) || !scene.materials[part.material].reflects()) continue;
     for (uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangleCount; ++t) {
       const glm::uvec3 corners = scene.mesh.triangles[t];
       const glm::dvec3 a = scene.mesh.positions[corners.x] - anchor,
@@ -33,7 +35,9 @@ MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int 
       if (!(length > 0.0) || !std::isfinite(length)) continue;
       const glm::dvec3 normal = cross / length;
       const auto fits = [&](const glm::dvec4& plane) {
-        const auto off = [&](glm::dvec3 p) { return std::abs(glm::dot(glm::dvec3(plane), p) + plane.w); };
+        const auto off = [&](glm::dvec3 point) {
+          return std::abs(glm::dot(glm::dvec3(plane), point) + plane.w);
+        };
         return glm::length(glm::dvec3(plane) - normal) < kSameNormal &&
                std::max({off(a), off(b), off(c)}) <= tolerance;
       };

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/frame/shown_mirrors.h"
 #include "renderer/scene/scene.h"
 
 namespace limen::techniques {
@@ -19,8 +20,9 @@ struct MirrorPlanes {
 
 /// The `most` planes that hold the largest area of mirrors. A triangle belongs to the first plane found whose
 /// distance from its corners is below 2^-20 of the scene's size and whose normal is its own up to 1e-4;
-/// triangles without area to none.
-MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int most);
+/// triangles without area to none. Of `shown` mirrors.
+MirrorPlanes findMirrorPlanes(const scene::Scene& scene, glm::dvec3 anchor, int most,
+                              const frame::ShownMirrors& shown = {});
 
 /// Reflection at a plane.
 glm::dmat4 mirrorMatrix(glm::dvec4 plane);

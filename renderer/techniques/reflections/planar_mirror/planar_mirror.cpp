@@ -13,6 +13,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/surface_point.h"
+#include "renderer/techniques/reflections/moving_mirrors.h"
 #include "renderer/techniques/reflections/planar_mirror/mirror_planes.h"
 #include "renderer/techniques/reflections/reflection_bindings.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
@@ -66,7 +67,9 @@ class PlanarMirror : public Technique {
     go_ = &frame.context().programs().compute(kPlanarShader, defines);
     defines["START"] = "1";
     start_ = &frame.context().programs().compute(kPlanarShader, defines);
-    found_ = findMirrorPlanes(frame.scene(), frame.gpuScene().anchor(), settings_.planes);
+    refuseMovingMirrors(frame, "a mirror's plane is found once");
+    found_ =
+        findMirrorPlanes(frame.scene(), frame.gpuScene().anchor(), settings_.planes, frame.shownMirrors());
     raster_.emplace(frame, frame.sizePx(), found_.planeOf, true);
     for (std::optional<gl::Texture>* texture : {&reflected_, &origin_, &direction_, &share_})
       texture->emplace(gl::Format::RGBA32F, frame.sizePx());
@@ -165,6 +168,7 @@ const RegisteredTechnique<PlanarMirror> kPlanarMirrorRegistered{
      .source = "Roger 2008, sections 1.3.1 and 2.1.1 (R-53)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = {{"mirror_planes", "Planes of mirrors", "", Direction::Neither},
                   {"mirrored_views", "Mirrored views drawn", "", Direction::LowerIsBetter},
                   {"triangles_drawn", "Triangles drawn in further views", "", Direction::LowerIsBetter}}}};

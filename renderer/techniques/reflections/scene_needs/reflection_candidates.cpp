@@ -106,19 +106,26 @@ std::vector<Candidate> readReflections(const std::string& path, const Reflection
                                   .complete = [&](Candidate& candidate) { complete(candidate, given); }});
 }
 
-Candidate candidateFor(const RuleVerdict& verdict, double glossRad, const ReflectionCommon& common) {
+Candidate filteredMap(double glossRad, const ReflectionCommon& common) {
+  return completed({kMap, lobe(glossRad)}, common);
+}
+
+Candidate candidateForNeed(ReflectorNeed need, int planes, double glossRad, const scene::Scene& scene,
+                           const ReflectionCommon& common) {
   const auto of = [&]() -> Candidate {
-    switch (verdict.all.need) {
+    switch (need) {
       case ReflectorNeed::Cones:
         if (TechniqueRegistry::instance().find(kCones)) return {kCones, {}};
         return {kMap, lobe(glossRad)};
       case ReflectorNeed::PlanarMirror:
-        return {kPlanar, {{"planes", int64_t{verdict.planes}}}};
+        return {kPlanar, {{"planes", int64_t{planes}}}};
       case ReflectorNeed::Map:
         return {kMap, {}};
       case ReflectorNeed::Tracer:
         return {kRays, {}};
       case ReflectorNeed::Vertices:
+        // The map of far surroundings is made once.
+        if (!scene.motions.empty()) return {kVertices, {}};
         return {kVertices, {{"surroundings", choice("environment")}}};
       case ReflectorNeed::RayHierarchy:
         break;
@@ -126,6 +133,11 @@ Candidate candidateFor(const RuleVerdict& verdict, double glossRad, const Reflec
     return {kHierarchy, {}};
   };
   return completed(of(), common);
+}
+
+Candidate candidateFor(const RuleVerdict& verdict, double glossRad, const scene::Scene& scene,
+                       const ReflectionCommon& common) {
+  return candidateForNeed(verdict.all.need, verdict.planes, glossRad, scene, common);
 }
 
 NeedsSubject reflectionSubject(bool glossy, const ReflectionCommon& common) {

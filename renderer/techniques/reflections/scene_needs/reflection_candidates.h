@@ -24,8 +24,14 @@ std::vector<Candidate> builtInReflections(double glossRad, const ReflectionCommo
 /// As a file lists them; `common` applies where an entry does not set it.
 std::vector<Candidate> readReflections(const std::string& path, const ReflectionCommon& common);
 
-/// The technique and settings that serve a need.
-Candidate candidateFor(const RuleVerdict& verdict, double glossRad, const ReflectionCommon& common);
+/// The technique and settings that serve a need, of mirrors that lie in `planes` planes where these count.
+Candidate candidateForNeed(ReflectorNeed need, int planes, double glossRad, const scene::Scene& scene,
+                           const ReflectionCommon& common);
+/// The same for all mirrors at once.
+Candidate candidateFor(const RuleVerdict& verdict, double glossRad, const scene::Scene& scene,
+                       const ReflectionCommon& common);
+/// A map that is filtered for mirrors of this gloss.
+Candidate filteredMap(double glossRad, const ReflectionCommon& common);
 
 /// Colour where pixels see mirrors, against the exact reference or, if any mirror is glossy, the sampled one.
 NeedsSubject reflectionSubject(bool glossy, const ReflectionCommon& common);

@@ -2,8 +2,9 @@
 // Finds which technique a scene's mirrors need. By rule: Roger's advice (2008, sections 1.3.1, 2.4 and 6),
 // from figures of each mirror's geometry, material and surroundings. By measurement: candidates of all kinds
 // are rendered, compared with a reference and timed, and the cheapest within a target is taken. One technique
-// serves the whole frame, as each of the family serves all mirrors at once; what each mirror would need by
-// itself is on record. Either choice can be checked against all candidates at full size.
+// serves the whole frame, or each mirror has its own (`choose`) and their pictures are joined; what each
+// mirror needs by itself is on record either way. Either choice can be checked against all candidates at full
+// size.
 //
 // The measured choice depends on measured times: on the same machine, candidates of nearly equal time may be
 // chosen in turn. The rule depends on the scene alone.
@@ -15,6 +16,7 @@
 
 #include "perception/metrics/error_map.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
+#include "renderer/techniques/reflections/scene_needs/mirror_choice.h"
 #include "renderer/techniques/reflections/scene_needs/reflection_candidates.h"
 #include "renderer/techniques/scene_needs/needs_record.h"
 
@@ -92,8 +94,15 @@ constexpr EnumNames<SceneMotion, 3> enumNames(SceneMotion) {
       {{{SceneMotion::AsBuilt, "as_built"}, {SceneMotion::Still, "still"}, {SceneMotion::Moving, "moving"}}}};
 }
 
+/// What a technique is chosen for.
+enum class ChosenFor { Frame, EachMirror };
+constexpr EnumNames<ChosenFor, 2> enumNames(ChosenFor) {
+  return {{{{ChosenFor::Frame, "frame"}, {ChosenFor::EachMirror, "each_mirror"}}}};
+}
+
 struct ReflectionNeedsSettings {
   std::variant<FollowRule, MeasureCandidates> decide;
+  ChosenFor choose = ChosenFor::Frame;
   SceneMotion motion = SceneMotion::AsBuilt;
   NeedsTarget target;
   std::variant<CheckChoice, CheckWholeSet, NoCheck> check;
@@ -114,6 +123,8 @@ const SettingsTable<ReflectionNeedsSettings>& ReflectionNeedsSettings::table() {
   static const SettingsTable<S> kTable = {
       {&S::decide, "decide", "How the technique is chosen",
        "Roger 2008, chapter 6; measure: the bench's own"},
+      {&S::choose, "choose", "One technique for the whole frame, or one for each mirror",
+       "Roger 2008, section 6 (a technique for each reflector); the bench's own"},
       {&S::motion, "motion",
        "Whether the scene moves, other than by its camera. If so, the tree of ray tracing counts in every "
        "frame"},
@@ -143,22 +154,31 @@ class ReflectionNeeds : public Technique {
     verdict_ = decideByRule(facts_, moving_, rule);
     double glossRad = 0.0;
     for (const ReflectorFacts& facts : facts_) glossRad = std::max(glossRad, facts.glossRad);
-    const Candidate ruled = candidateFor(verdict_, glossRad, settings_.common);
+    const bool each = settings_.choose == ChosenFor::EachMirror && !facts_.empty();
+    Candidate ruled = candidateFor(verdict_, glossRad, frame.scene(), settings_.common);
+    if (each) {
+      needs_ = eachByRule(frame.scene(), facts_, verdict_, moving_, settings_.common);
+      ruled = candidateOf(groupsOf(facts_, needs_));
+    }
     ruled_ = describe(ruled);
     choice_ = byRule ? ruled : Candidate{};
 
-    FrameClock clock(
-        frame, settings_.timing,
-        moving_ ? std::vector<std::string>{kEachFrameOfAMovingScene} : std::vector<std::string>{});
+    FrameClock clock(frame, settings_.timing, eachFrame());
     const NeedsSubject subject = reflectionSubject(glossRad > 0.0, settings_.common);
     NeedsOptions options{.target = settings_.target, .reference = settings_.reference};
     const std::vector<Candidate> candidates = settings_.listed(glossRad);
     if (const auto* measure = std::get_if<MeasureCandidates>(&settings_.decide)) {
       options.picturePx = measure->picturePx;
       options.seconds = measure->seconds;
-      found_ = findNeeds(frame, candidates, subject, options, clock);
-      choice_ = found_->chosen().candidate;
-      checked_ = found_->check;
+      if (each) {
+        options.seconds /= double(facts_.size());
+        measureEach(frame, candidates, options);
+        checked_ = checkAtFullSize(frame, choice_, subject, options, clock);
+      } else {
+        found_ = findNeeds(frame, candidates, subject, options, clock);
+        choice_ = found_->chosen().candidate;
+        checked_ = found_->check;
+      }
     } else if (!std::holds_alternative<NoCheck>(settings_.check)) {
       checked_ = checkAtFullSize(frame, choice_, subject, options, clock);
     }
@@ -177,10 +197,15 @@ class ReflectionNeeds : public Technique {
     if (found_)
       out = remarksOn(*found_);
     else
-      out = {"chosen: " + describe(choice_), "by rule: " + verdict_.all.reason};
-    for (size_t i = 0; i < facts_.size(); ++i)
-      out.push_back(fmt::format("mirror '{}', {:.3g} % of the mirrors' area: {}", facts_[i].name,
-                                100.0 * facts_[i].areaShare, verdict_.reflectors[i].reason));
+      out = {"chosen: " + describe(choice_)};
+    if (!found_ && needs_.empty()) out.push_back("by rule: " + verdict_.all.reason);
+    for (size_t i = 0; i < facts_.size(); ++i) {
+      const std::string mirror = fmt::format("mirror '{}', {:.3g} % of the mirrors' area: ", facts_[i].name,
+                                             100.0 * facts_[i].areaShare);
+      out.push_back(mirror + (needs_.empty() ? verdict_.reflectors[i].reason
+                                             : describe(needs_[i].candidate) + ": " + needs_[i].reason));
+    }
+    if (!needs_.empty() && describe(choice_) != ruled_) out.push_back("the rule takes " + ruled_);
     if (found_) out.push_back("the rule takes " + ruled_ + ": " + verdict_.all.reason);
     out.emplace_back(moving_ ? "the scene moves: times include the tree of ray tracing"
                              : "the scene is still: times include no tree");
@@ -191,7 +216,11 @@ class ReflectionNeeds : public Technique {
     return out;
   }
   std::vector<Counter> count(frame::Frame&) override {
+    std::set<std::string> techniques = {describe(choice_)};
+    if (!needs_.empty()) techniques.clear();
+    for (const MirrorNeed& need : needs_) techniques.insert(need.candidate.technique);
     std::vector<Counter> out = {{"reflectors", double(facts_.size())},
+                                {"techniques_joined", double(techniques.size())},
                                 {"rule_followed", describe(choice_) == ruled_ ? 1.0 : 0.0}};
     const auto add = [&](std::vector<Counter> more) {
       for (Counter& counter : more) out.push_back(std::move(counter));
@@ -214,8 +243,34 @@ class ReflectionNeeds : public Technique {
   }
 
  private:
+  /// What each mirror needs, measured where pixels see it, with the other mirrors showing nothing.
+  void measureEach(frame::Frame& frame, const std::vector<Candidate>& candidates,
+                   const NeedsOptions& options) {
+    needs_.clear();
+    for (const ReflectorFacts& mirror : facts_) {
+      frame::Frame alone(frame.context(), frame.scene(), frame.gpuScene(), frame.sizePx(), frame.timeS(),
+                         frame.raster());
+      alone.setShownMirrors(frame::ShownMirrors({mirror.part}));
+      FrameClock clock(alone, settings_.timing, eachFrame());
+      const SceneNeedsFound found = findNeeds(
+          alone, candidates, reflectionSubject(mirror.glossRad > 0.0, settings_.common), options, clock);
+      const Tried& chosen = found.chosen();
+      needs_.push_back(
+          {chosen.candidate,
+           fmt::format("{} of {} candidates within the target, {:.3g}; the {}: {:.3g} ms, {} {:.3g}",
+                       found.verdict.withinTarget ? found.verdict.eligible.size() : 0, found.tried.size(),
+                       largestOf(settings_.target), found.verdict.withinTarget ? "cheapest" : "most exact",
+                       chosen.time.medianMs, measureOf(settings_.target), chosen.error.value())});
+    }
+    choice_ = candidateOf(groupsOf(facts_, needs_));
+  }
+  std::vector<std::string> eachFrame() const {
+    return moving_ ? std::vector<std::string>{kEachFrameOfAMovingScene} : std::vector<std::string>{};
+  }
+
   ReflectionNeedsSettings settings_;
   std::vector<ReflectorFacts> facts_;
+  std::vector<MirrorNeed> needs_;  ///< of each mirror, if each has its own technique
   RuleVerdict verdict_;
   bool moving_ = false;
   std::string ruled_;
@@ -230,6 +285,7 @@ std::vector<Quantity> reflectionNeedsQuantities() {
   std::vector<Quantity> all = needsQuantities();
   for (Quantity& quantity : wholeSetQuantities()) all.push_back(std::move(quantity));
   all.emplace_back("reflectors", "Mirrors", "", Direction::Neither);
+  all.emplace_back("techniques_joined", "Techniques that show mirrors", "", Direction::Neither);
   all.emplace_back("rule_followed", "Rule and choice agree (1: yes)", "", Direction::Neither);
   return all;
 }
@@ -243,6 +299,7 @@ const RegisteredTechnique<ReflectionNeeds> kReflectionNeedsRegistered{
      .source = "Roger 2008, sections 1.3.1, 2.4 and 6 (R-60)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
+     .followsMotion = true,
      .counters = reflectionNeedsQuantities()}};
 
 }  // namespace

@@ -16,9 +16,12 @@ constexpr double kLeastStarCosine = 1e-4;
 }  // namespace
 
 std::vector<StarReflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                          const reflections::ReflectedMesh& reflected) {
+                                          const reflections::ReflectedMesh& reflected,
+                                          const frame::ShownMirrors& shown) {
   std::vector<StarReflector> out;
-  for (const scene::Part& part : scene.parts) {
+  for (size_t p = 0; p < scene.parts.size(); ++p) {
+    const scene::Part& part = scene.parts[p];
+    if (!shown.has(p)) continue;
     if (part.triangleCount == 0 || !scene.materials[part.material].reflects()) continue;
     const scene::TriangleRange range{part.firstTriangle, part.triangleCount};
     const reflections::StarCentre centre = reflections::findStarCentre(scene.mesh, range);

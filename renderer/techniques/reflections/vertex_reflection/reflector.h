@@ -24,9 +24,10 @@ struct StarReflector {
   gl::Buffer reflected;  ///< vec4 a vertex of the reflected mesh, see vertex_reflection_bindings.h
 };
 
-/// One for each part whose material reflects. Throws Error if a part is not star-shaped.
+/// One for each part of `shown` whose material reflects. Throws Error if a part is not star-shaped.
 std::vector<StarReflector> makeReflectors(const scene::Scene& scene, const ReflectorMapSettings& settings,
-                                          const reflections::ReflectedMesh& mesh);
+                                          const reflections::ReflectedMesh& mesh,
+                                          const frame::ShownMirrors& shown = {});
 
 /// Defines and uniforms of secant.glsl. `eyeOffset`: of the solver's eye from the camera's, world space.
 gl::ShaderDefines secantDefines(const SecantSettings& solver, const ReflectorMapSettings& map);

@@ -21,6 +21,7 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/moved_vertices.h"
+#include "renderer/techniques/reflections/moving_mirrors.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 #include "renderer/techniques/reflections/vertex_reflection/far_environment.h"
 #include "renderer/techniques/reflections/vertex_reflection/reflected_mesh.h"
@@ -54,14 +55,14 @@ class VertexReflection : public Technique {
   }
 
   void prepare(frame::Frame& frame) override {
-    checkMotion(frame.scene());
+    checkMotion(frame);
     const int segments =
         adaptive_ ? adaptive_->segments : std::get<EvenSegments>(settings_.tessellation).segments;
     mesh_ = reflections::divided(frame.scene().mesh, segments, frame.gpuScene().anchor());
     positions_.emplace(mesh_.positions);
     indices_.emplace(mesh_.triangles);
     sources_.emplace(mesh_.sources);
-    reflectors_ = makeReflectors(frame.scene(), settings_.map, mesh_);
+    reflectors_ = makeReflectors(frame.scene(), settings_.map, mesh_, frame.shownMirrors());
     ranges_.clear();
     for (const StarReflector& reflector : reflectors_) {
       ranges_.push_back(std::make_unique<frame::TriangleRanges>(1));
@@ -141,13 +142,9 @@ class VertexReflection : public Technique {
 
  private:
   /// Maps of mirrors and of what is far are made once.
-  void checkMotion(const scene::Scene& scene) const {
-    if (scene.motions.empty()) return;
-    for (const scene::PartMotion& motion : scene.motions)
-      if (scene.materials[scene.parts[motion.part].material].reflects())
-        throw Error(
-            "vertex reflection needs mirrors at rest, and part '" + scene.parts[motion.part].name + "' moves",
-            scene.name, "choose reflections/ray_traced or reflections/ray_hierarchy");
+  void checkMotion(const frame::Frame& frame) const {
+    if (frame.scene().motions.empty()) return;
+    refuseMovingMirrors(frame, "vertex reflection needs mirrors at rest");
     if (far_)
       throw Error("a map of the far surroundings is made once, and parts of the scene move", "surroundings",
                   "leave out the map");

@@ -94,6 +94,29 @@ TEST_F(MovingParts, RaysAgreeWithTheReference) {
   EXPECT_LE(differing(path(scene, "reflections/ray_hierarchy", {}, {0.0, 0.5})[1], truth, 1e-3).count, 40U);
 }
 
+/// Figures that share the 32 parts which may move; their ground is a planar mirror at rest.
+TEST_F(MovingParts, AHerdWalks) {
+  const Given given = {
+      {"figures", int64_t{70}}, {"tessellation", int64_t{1}}, {"motion", std::string("moving")}};
+  const scene::Scene scene = makeScene("mirrors/herd", given);
+  EXPECT_EQ(scene.motions.size(), 24U) << "three figures a part";
+  for (const char* tree : {"rebuilt", "refitted"})
+    expectMovedState(scene, "reflections/ray_traced", {{"tree", std::string(tree)}});
+  expectMovedState(scene, "reflections/ray_hierarchy", {});
+  expectMovedState(scene, "reflections/planar_mirror", {});
+}
+
+TEST_F(MovingParts, AHerdAtTimeZeroStandsWhereItRests) {
+  const Given few = {{"figures", int64_t{20}}, {"tessellation", int64_t{1}}};
+  Given moving = few;
+  moving["motion"] = std::string("moving");
+  const scene::Scene rests = makeScene("mirrors/herd", few),
+                     walks = scene::movedTo(makeScene("mirrors/herd", moving), 0.0);
+  ASSERT_EQ(rests.mesh.positions.size(), walks.mesh.positions.size());
+  for (size_t i = 0; i < rests.mesh.positions.size(); ++i)
+    ASSERT_LT(glm::length(rests.mesh.positions[i] - walks.mesh.positions[i]), 1e-12) << i;
+}
+
 TEST_F(MovingParts, WhatIsMadeOnceIsRefused) {
   const scene::Scene scene =
       makeScene("mirrors/ellipsoid", {{"tessellation", int64_t{8}}, {"motion", std::string("moving")}});
@@ -109,6 +132,7 @@ TEST_F(MovingParts, WhatIsMadeOnceIsRefused) {
       makeScene("mirrors/kitchen", {{"tessellation", int64_t{6}}, {"motion", std::string("moving")}});
   EXPECT_THROW(render(kitchen, "reflections/vertex_reflection", {}, kSize), Error) << "a mirror that moves";
   EXPECT_THROW(render(kitchen, "reflections/environment_map", {}, kSize), Error) << "a mirror that moves";
+  EXPECT_THROW(render(kitchen, "reflections/planar_mirror", {}, kSize), Error) << "a mirror that moves";
 }
 
 }  // namespace
