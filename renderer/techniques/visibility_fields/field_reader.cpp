@@ -166,22 +166,21 @@ const SettingsTable<GridTracer>& GridTracer::table() {
 
 const SettingsTable<FieldUse>& FieldUse::table() {
   using S = FieldUse;
-  static const SettingsTable<S> kTable = {
-      {&S::slack,
-       "slack",
-       {0.0, 20.0},
-       "spacings",
-       "From inside an object's sphere: by how much a blocker must lie "
-       "before the origin so that it is not the "
-       "surface that the ray starts on, in spacings of the field's rays",
-       "Gaitatzes 2012, section 4.4.2 (without a value)"},
-      {&S::spheres,
-       "spheres",
-       {1, 64},
-       "",
-       "Spheres with a field each that cover an object which is long or "
-       "hollow, at most; 1: one for every object",
-       "Gaitatzes 2012, section 4.8 (suggested)"}};
+  static const SettingsTable<S> kTable = {{&S::slack,
+                                           "slack",
+                                           {0.0, 20.0},
+                                           "spacings",
+                                           "From inside an object's sphere: by how much a blocker must lie "
+                                           "before the origin so that it is not the "
+                                           "surface that the ray starts on, in spacings of the field's rays",
+                                           "Gaitatzes 2012, section 4.4.2 (without a value)"},
+                                          {&S::spheres,
+                                           "spheres",
+                                           {1, 64},
+                                           "",
+                                           "Spheres with a field each that cover an object which is long or "
+                                           "hollow, at most; 1: one for every object",
+                                           "Gaitatzes 2012, section 4.8 (suggested)"}};
   return kTable;
 }
 
@@ -218,10 +217,12 @@ const SettingsTable<BySizeDetail>& BySizeDetail::table() {
 const SettingsTable<FieldReading>& FieldReading::table() {
   using S = FieldReading;
   static const SettingsTable<S> kTable = {
-      included(&S::form), included(&S::use),
+      included(&S::form),
+      included(&S::use),
       {&S::fetch, "fetch",
        "What a look-up reads: the nearest position's nearest direction; from the nearest position, the "
-       "direction to where the ray is likely to meet the object; the three positions around, each so aimed; or "
+       "direction to where the ray is likely to meet the object; the three positions around, each so aimed; "
+       "or "
        "the four directions around as well. What neighbours let through is weighed, not their distances",
        "Gaitatzes 2012, section 4.4.2 (nearest); after Gortler et al. 1996 (aimed)"},
       {&S::storage, "storage", "How fields are kept"}};
@@ -233,8 +234,8 @@ void FieldReading::check() const {
     throw Error("'tolerance' is for codes of 8 bits; 'bits' is " + std::to_string(form.bits),
                 "storage.tolerance", "leave out 'tolerance', or give bits: 8");
   const bool between = fetch == FieldFetch::Positions || fetch == FieldFetch::All;
-  if (between && (form.positionMap != vf::PositionForm::Lattice ||
-                  form.directionMap != vf::DirectionForm::Concentric))
+  if (between &&
+      (form.positionMap != vf::PositionForm::Lattice || form.directionMap != vf::DirectionForm::Concentric))
     throw Error(std::string("'fetch: ") + limen::toText(fetch) +
                     "' reads neighbours, which it knows on a lattice of concentric maps",
                 "fetch", "give fetch: nearest or aimed, or leave out 'position_map' and 'direction_map'");
@@ -293,7 +294,8 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
 std::vector<std::string> FieldReader::remarks() const {
   if (!fields_ || fields_->fieldsRead() == 0) return {};
   return {std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
-          " fields were read from '" + settings_.storage.folder + "' and not made: preparation took less time"};
+          " fields were read from '" + settings_.storage.folder +
+          "' and not made: preparation took less time"};
 }
 
 std::vector<Quantity> FieldReader::quantities() {

@@ -50,8 +50,9 @@ struct TurnedPattern {
 };
 struct InterleavedPattern {
   static constexpr const char *kKind = "interleaved",
-                              *kSummary = "pixels of a tile have other rays of a finer grid, one in every "
-                                          "cell of their own";
+                              *kSummary =
+                                  "pixels of a tile have other rays of a finer grid, one in every "
+                                  "cell of their own";
   int side = 4;
   FilterSetting filter;
   static const SettingsTable<InterleavedPattern>& table();
@@ -101,8 +102,9 @@ struct GivenDetail {
 };
 struct BySizeDetail {
   static constexpr const char *kKind = "by_size",
-                              *kSummary = "the least bytes that keep to an error by the objects' size in the "
-                                          "picture when they are made; what is given is the finest";
+                              *kSummary =
+                                  "the least bytes that keep to an error by the objects' size in the "
+                                  "picture when they are made; what is given is the finest";
   double error = 0.02;
   static const SettingsTable<BySizeDetail>& table();
 };
@@ -117,9 +119,10 @@ struct FieldStorage {
 };
 template <class S>
 Binding<S> folderBinding(std::string S::*member) {
-  return {member, "folder",
-          "Folder in which fields are kept by their content, so that the next run reads them: its preparation "
-          "time is that of reading; none: made each time"};
+  return {
+      member, "folder",
+      "Folder in which fields are kept by their content, so that the next run reads them: its preparation "
+      "time is that of reading; none: made each time"};
 }
 
 /// How fields are made and read.
@@ -129,8 +132,8 @@ struct FieldReading {
   FieldFetch fetch = FieldFetch::Aimed;
   FieldStorage storage;
   static const SettingsTable<FieldReading>& table();
-  /// Throws Error if there is a tolerance for codes of other than 8 bits, or if a look-up between positions or
-  /// directions has no neighbours.
+  /// Throws Error if there is a tolerance for codes of other than 8 bits, or if a look-up between positions
+  /// or directions has no neighbours.
   void check() const;
 };
 

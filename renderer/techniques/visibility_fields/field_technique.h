@@ -16,8 +16,8 @@
 
 namespace limen::techniques {
 
-/// S: also `field`, a FieldReading, define(), which adds to the shader's defines, and passes() over the picture
-/// for a number of objects, each with its own `passObject`.
+/// S: also `field`, a FieldReading, define(), which adds to the shader's defines, and passes() over the
+/// picture for a number of objects, each with its own `passObject`.
 template <class S>
 class FieldTechnique : public Technique {
  public:

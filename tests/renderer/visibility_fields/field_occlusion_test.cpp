@@ -113,9 +113,9 @@ TEST_F(FieldOcclusionTest, ErrorOfAimedRaysFallsWithDirections) {
   }
 }
 
-// Aimed at the middle of its sphere, a ray from a position beside its own misses its own place there by nothing in place of
-// the distance between positions, and by as much only where it leaves the sphere: on average half as much. Of three positions a part
-// of what is left cancels. Neither rays nor storage differ.
+// Aimed at the middle of its sphere, a ray from a position beside its own misses its own place there by
+// nothing in place of the distance between positions, and by as much only where it leaves the sphere: on
+// average half as much. Of three positions a part of what is left cancels. Neither rays nor storage differ.
 TEST_F(FieldOcclusionTest, AimedRaysErrLessThanParallelOnes) {
   scene::Scene scene = twoBalls();
   lookDown(scene);

@@ -37,7 +37,8 @@ TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
   const scene::Scene scene = onePoint();
   for (const char* name : {"visibility_fields/traced_occlusion", "visibility_fields/traced_shadows",
                            "visibility_fields/ambient_occlusion", "visibility_fields/soft_shadows"}) {
-    Given fine = {{"rays", int64_t{256}}}, shared = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}};
+    Given fine = {{"rays", int64_t{256}}},
+          shared = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}};
     if (std::string(name).find("occlusion") != std::string::npos)
       for (Given* given : {&fine, &shared}) (*given)["radius"] = 10.0;
     const double expected = meanOfPixels(render(scene, name, fine, {4, 4}).product);

@@ -44,7 +44,8 @@ struct NormalField {
         {&S::distanceBits, "distance_bits", oneOf({8, 16}), "bit",
          "Of the 32 bits of a ray those of its distance; the rest are the normal's",
          "Gaitatzes 2012, section 4.5.1 (4 bytes; 8 and 3 x 8 is a reading)"},
-        included(&S::use), folderBinding(&S::folder)};
+        included(&S::use),
+        folderBinding(&S::folder)};
     return kTable;
   }
   FieldReading reading() const {
