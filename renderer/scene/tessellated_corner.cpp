@@ -19,7 +19,7 @@ struct TessellatedCornerSettings {
         {&S::lumps, "lumps", {1, 9}, "lumps", "Number of lumps in the corner"},
         {&S::tessellation,
          "tessellation",
-         {1, 128},
+         {1, 400},
          "segments",
          "Segments in a quarter circle; a lump has 8 times its square triangles"},
         {&S::vertices,

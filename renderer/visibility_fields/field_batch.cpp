@@ -13,7 +13,7 @@ std::vector<float> lookUp(gl::Context& context, const VisibilityFields& fields, 
                           const std::vector<ray_tracing::BatchRay>& rays, double slack) {
   constexpr size_t kMostRays = size_t{65535} * kFieldBatchGroup;
   const gl::Program& program =
-      context.programs().compute("renderer/visibility_fields/field_batch.comp.glsl", fields.form().defines());
+      context.programs().compute("renderer/visibility_fields/field_batch.comp.glsl", fields.defines());
   const gl::Buffer given(rays), distances(static_cast<int64_t>(rays.size() * sizeof(float)), nullptr);
   fields.bind(program);
   given.bindStorage(kFieldBatchRaysBuffer);

@@ -62,7 +62,7 @@ struct FieldForm {
 
   /// Of a map's row: texels packed from the lowest bits on.
   int wordsPerRow() const { return (directions * bits + 31) / 32; }
-  /// FIELD_* for shaders that read or make fields.
+  /// FIELD_* but for the slices' side: see VisibilityFields::defines().
   gl::ShaderDefines defines() const;
 };
 

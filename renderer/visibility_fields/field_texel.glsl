@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading texels of fields. The program is compiled with FieldForm::defines() and set up by VisibilityFields::bind().
+// Reading texels of fields. The program is compiled with VisibilityFields::defines() and set up by VisibilityFields::bind().
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/field_words.h"
 #include "renderer/visibility_fields/map_functions.h"
 
 layout(binding = kFieldWordsUnit) uniform usampler2DArray fieldWords;
 layout(std430, binding = kFieldMapsBuffer) readonly buffer FieldMaps { vec4 fieldMaps[]; };
-uniform int fieldSliceSide;
 
 const int kFieldTexelsPerWord = 32 / FIELD_BITS;
 const ivec2 kFieldTile = ivec2((FIELD_SIDE * FIELD_BITS + 31) / 32, FIELD_SIDE);
 
 uint fieldWord(int map, ivec2 texel) {
   const ivec2 word = ivec2(texel.x / kFieldTexelsPerWord, texel.y);
-  return texelFetch(fieldWords, fieldWordPlace(map, word, kFieldTile, fieldSliceSide), 0).x;
+  return texelFetch(fieldWords, fieldWordPlace(map, word, kFieldTile, FIELD_SLICE_SIDE), 0).x;
 }
 
 #if FIELD_DISTANCE_BITS < FIELD_BITS

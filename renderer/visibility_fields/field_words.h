@@ -8,14 +8,16 @@
 #ifdef __cplusplus
 namespace limen::visibility_fields {
 using glm::ivec3;
+using glm::uint;
 #endif
 
 // x, y and slice of a word of map `map`: column and row in the map. `tile`: words of a map along x and y;
 // `side`: of a slice.
 FIELD_FUNCTION ivec3 fieldWordPlace(int map, ivec2 word, ivec2 tile, int side) {
-  const ivec2 tiles = ivec2(side / tile.x, side / tile.y);
-  const int inSlice = map % (tiles.x * tiles.y);
-  return ivec3(ivec2(inSlice % tiles.x, inSlice / tiles.x) * tile + word, map / (tiles.x * tiles.y));
+  // Sides are powers of two and known to the compiler: without signs no division is left.
+  const uint across = uint(side / tile.x), each = across * uint(side / tile.y), number = uint(map);
+  const uint inSlice = number % each;
+  return ivec3(ivec2(int(inSlice % across), int(inSlice / across)) * tile + word, int(number / each));
 }
 
 #ifdef __cplusplus

@@ -24,7 +24,7 @@ vec3 hitNormal(RayHit hit, vec3 direction) {
   return dot(vec3(a.w, b.w, c.w), direction) > 0.0 ? -normal : normal;
 }
 #endif
-uniform int fieldSliceSide, firstMap;  // the object's
+uniform int firstMap;  // the object's
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
 
@@ -66,7 +66,7 @@ void main() {
 #endif
   }
   if (rayCutShort) atomicAdd(cutShort, 1u);
-  imageStore(fieldWords, fieldWordPlace(firstMap + map, word, kTile, fieldSliceSide), uvec4(bits));
+  imageStore(fieldWords, fieldWordPlace(firstMap + map, word, kTile, FIELD_SLICE_SIDE), uvec4(bits));
 #if FIELD_BITS == 1
   sums[map * kTile.x * kTile.y + number] = sum;
 #endif

@@ -88,8 +88,14 @@ VisibilityFields::VisibilityFields(gl::Context& context, const std::vector<Rigid
   place(poses, glm::dvec3(0.0));
 }
 
+gl::ShaderDefines VisibilityFields::defines() const {
+  gl::ShaderDefines defines = form_.defines();
+  defines["FIELD_SLICE_SIDE"] = std::to_string(sliceSide_);
+  return defines;
+}
+
 void VisibilityFields::make(gl::Context& context, const RigidObject& object, uint32_t index) const {
-  const gl::ShaderDefines defines = form_.defines();
+  const gl::ShaderDefines defines = this->defines();
   const gl::Program& program =
       context.programs().compute("renderer/visibility_fields/make_field.comp.glsl", defines);
   const ray_tracing::RayScene rays(context, object.vertices, object.triangles);
@@ -105,7 +111,6 @@ void VisibilityFields::make(gl::Context& context, const RigidObject& object, uin
   if (sums) sums->bindStorage(kFieldSumsBuffer);
   if (corners) corners->bindStorage(kFieldCornersBuffer);
   words_->bindImage(kFieldWordsImage, gl::Access::Write);
-  program.set("fieldSliceSide", sliceSide_);
   program.set("firstMap", firstMap);
   program.dispatch({wordsPerMap, mapsPerObject()}, {kFieldMakeGroup, 1});
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
@@ -146,7 +151,6 @@ void VisibilityFields::bind(const gl::Program& program) const {
   objects_.bindStorage(kFieldObjectsBuffer);
   maps_.bindStorage(kFieldMapsBuffer);
   words_->bindTexture(kFieldWordsUnit);
-  program.set("fieldSliceSide", sliceSide_);
   program.set("fieldObjectCount", objectCount_);
 }
 

@@ -44,6 +44,8 @@ class VisibilityFields {
   /// Buffers, texture and uniforms of field_lookup.glsl, for the next dispatches of `program`.
   void bind(const gl::Program& program) const;
   const FieldForm& form() const { return form_; }
+  /// FIELD_* for shaders that read or make these fields.
+  gl::ShaderDefines defines() const;
   const PositionMap& positionMap() const { return positionMap_; }
   uint32_t objectCount() const { return objectCount_; }
   int64_t rayCount() const;  ///< traced to make the fields, unused texels included

@@ -103,12 +103,7 @@ TEST_F(ShippedDescriptors, NothingHasMoreThanSixteenParametersOnItsOwnLevel) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   size_t entries = 0;
   for (const nlohmann::json& entry : jsonLines(result.out)) {
-    // Fields' form, use and rays want groups of their own; until then these two are the only exceptions.
-    const std::string name = entry.at("name");
-    const size_t most = name == "visibility_fields/ambient_occlusion" ? 19U
-                        : name == "visibility_fields/soft_shadows"    ? 17U
-                                                                      : 16U;
-    EXPECT_LE(entry.at("parameters").size(), most) << name;
+    EXPECT_LE(entry.at("parameters").size(), 16U) << entry.at("name");
     ++entries;
   }
   EXPECT_GT(entries, 80U);  // scenes, techniques and metrics

@@ -43,6 +43,11 @@ const int kLightSphere = 1;
 const int kCombineNearest = 0;
 const int kCombineProduct = 1;
 const int kCombineSubtract = 2;
+const int kCombinePasses = 3;
+const int kFetchNearest = 0;
+const int kFetchAimed = 1;
+const int kFetchPositions = 2;
+const int kFetchAll = 3;
 
 #ifdef __cplusplus
 }  // namespace limen::techniques

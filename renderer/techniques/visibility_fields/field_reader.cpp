@@ -8,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_bindings.h"
@@ -18,6 +19,10 @@ namespace vf = visibility_fields;
 namespace {
 
 constexpr int64_t kMostSoftwareSteps = 60000;
+static_assert(static_cast<int>(FieldFetch::Nearest) == kFetchNearest &&
+              static_cast<int>(FieldFetch::Aimed) == kFetchAimed &&
+              static_cast<int>(FieldFetch::Positions) == kFetchPositions &&
+              static_cast<int>(FieldFetch::All) == kFetchAll);
 
 void checkCount(const std::vector<vf::RigidObject>& objects, const char* mend) {
   if (objects.size() > vf::kMostFieldObjects)
@@ -68,17 +73,7 @@ const SettingsTable<ReceiverRays>& ReceiverRays::table() {
   using S = ReceiverRays;
   static const SettingsTable<S> kTable = {
       {&S::rays, "rays", {1, 1024}, "rays", "Rays per pixel, a square number", "Gaitatzes 2012, section 4.7"},
-      {&S::turned, "turned", "Choose other rays for each pixel, at random", "bench"},
-      {&S::seed, "seed", {0, 1000000}, "", "Seed of that choice"},
-      {&S::interleave,
-       "interleave",
-       {1, 8},
-       "px",
-       "Side of the tiles of pixels that share a grid of rays that is finer by as much: each has other rays "
-       "of it, one in "
-       "every cell of its own",
-       "Keller and Heidrich 2001 (bench)"},
-      {&S::filter, "filter", "What is made of interleaved pixels", "bench"},
+      {&S::pattern, "pattern", "Where the rays of a pixel lie in their cells", "bench"},
       {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
        "Gaitatzes 2012, section 4.4.2"},
       objectsBinding(&S::objects)};
@@ -91,10 +86,11 @@ void ReceiverRays::check() const {
   if (int64_t{side()} * side() != rays)
     throw Error("'rays' is " + std::to_string(rays) + ", not a square number", "rays",
                 "give " + std::to_string(side() * side()));
-  if (turned && interleave > 1)
-    throw Error("rays are either 'turned' at random or interleaved", "interleave", "leave out one of them");
-  if (interleave == 1 && !std::holds_alternative<NoFilter>(filter))
-    throw Error("'filter' is for interleaved pixels", "filter", "give interleave: 4");
+}
+
+int ReceiverRays::interleave() const {
+  const auto* interleaved = std::get_if<InterleavedPattern>(&pattern);
+  return interleaved ? interleaved->side : 1;
 }
 
 void ReceiverRays::makeInputs(frame::Frame& frame) {
@@ -109,11 +105,36 @@ void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) co
   frame.get<frame::TriangleIds>().texture().bindTexture(kFieldIdsUnit);
   program.set("sizePx", frame.sizePx());
   program.set("raySide", side());
+  const auto* turned = std::get_if<TurnedPattern>(&pattern);
   program.set("turned", turned ? 1 : 0);
-  program.set("seed", static_cast<uint32_t>(seed));
-  program.set("interleave", interleave);
+  program.set("seed", turned ? static_cast<uint32_t>(turned->seed) : 0U);
+  program.set("interleave", interleave());
   program.set("selfOcclusion", selfOcclusion ? 1 : 0);
   program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
+}
+
+const SettingsTable<SamePattern>& SamePattern::table() {
+  static const SettingsTable<SamePattern> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<TurnedPattern>& TurnedPattern::table() {
+  static const SettingsTable<TurnedPattern> kTable = {
+      {&TurnedPattern::seed, "seed", {0, 1000000}, "", "Seed of the choice"}};
+  return kTable;
+}
+
+const SettingsTable<InterleavedPattern>& InterleavedPattern::table() {
+  using S = InterleavedPattern;
+  static const SettingsTable<S> kTable = {
+      {&S::side,
+       "side",
+       {2, 8},
+       "px",
+       "Side of the tiles of pixels that share a grid of rays that is finer by as much",
+       "Keller and Heidrich 2001 (bench)"},
+      {&S::filter, "filter", "What is made of interleaved pixels", "bench"}};
+  return kTable;
 }
 
 const SettingsTable<NoFilter>& NoFilter::table() {
@@ -145,25 +166,51 @@ const SettingsTable<GridTracer>& GridTracer::table() {
 
 const SettingsTable<FieldUse>& FieldUse::table() {
   using S = FieldUse;
+  static const SettingsTable<S> kTable = {{&S::slack,
+                                           "slack",
+                                           {0.0, 20.0},
+                                           "spacings",
+                                           "From inside an object's sphere: by how much a blocker must lie "
+                                           "before the origin so that it is not the "
+                                           "surface that the ray starts on, in spacings of the field's rays",
+                                           "Gaitatzes 2012, section 4.4.2 (without a value)"},
+                                          {&S::spheres,
+                                           "spheres",
+                                           {1, 64},
+                                           "",
+                                           "Spheres with a field each that cover an object which is long or "
+                                           "hollow, at most; 1: one for every object",
+                                           "Gaitatzes 2012, section 4.8 (suggested)"}};
+  return kTable;
+}
+
+const SettingsTable<FieldStorage>& FieldStorage::table() {
+  using S = FieldStorage;
   static const SettingsTable<S> kTable = {
-      {&S::slack,
-       "slack",
-       {0.0, 20.0},
-       "spacings",
-       "From inside an object's sphere: by how much a blocker must lie "
-       "before the origin so that it is not the "
-       "surface that the ray starts on, in spacings of the field's rays",
-       "Gaitatzes 2012, section 4.4.2 (without a value)"},
-      {&S::spheres,
-       "spheres",
-       {1, 64},
-       "",
-       "Spheres with a field each that cover an object which is long or "
-       "hollow, at most; 1: one for every object",
+      folderBinding(&S::folder),
+      {&S::tolerance,
+       "tolerance",
+       {0, 64},
+       "codes",
+       "By how much codes of 8 bits may change so that runs of equal ones are longer: lossy compression",
        "Gaitatzes 2012, section 4.8 (suggested)"},
-      {&S::folder, "folder",
-       "Folder in which fields are kept by their content, so that the next run reads "
-       "them: its preparation time is that of reading; none: made each time"}};
+      {&S::detail, "detail", "Positions, directions and bits of the fields",
+       "Gaitatzes 2012, section 4.6.1.3 (1 bit for far objects)"}};
+  return kTable;
+}
+
+const SettingsTable<GivenDetail>& GivenDetail::table() {
+  static const SettingsTable<GivenDetail> kTable = {};
+  return kTable;
+}
+
+const SettingsTable<BySizeDetail>& BySizeDetail::table() {
+  static const SettingsTable<BySizeDetail> kTable = {
+      {&BySizeDetail::error,
+       "error",
+       {0.0001, 1.0},
+       "",
+       "Bound of the root mean square error of the whole picture (detail_by_size.h)"}};
   return kTable;
 }
 
@@ -172,19 +219,26 @@ const SettingsTable<FieldReading>& FieldReading::table() {
   static const SettingsTable<S> kTable = {
       included(&S::form),
       included(&S::use),
-      {&S::tolerance,
-       "tolerance",
-       {0, 64},
-       "codes",
-       "By how much codes of 8 bits may change so that runs of equal ones are longer: lossy compression",
-       "Gaitatzes 2012, section 4.8 (suggested)"}};
+      {&S::fetch, "fetch",
+       "What a look-up reads: the nearest position's nearest direction; from the nearest position, the "
+       "direction to where the ray is likely to meet the object; the three positions around, each so aimed; "
+       "or "
+       "the four directions around as well. What neighbours let through is weighed, not their distances",
+       "Gaitatzes 2012, section 4.4.2 (nearest); after Gortler et al. 1996 (aimed)"},
+      {&S::storage, "storage", "How fields are kept"}};
   return kTable;
 }
 
 void FieldReading::check() const {
-  if (tolerance > 0 && form.bits != 8)
-    throw Error("'tolerance' is for codes of 8 bits; 'bits' is " + std::to_string(form.bits), "tolerance",
-                "leave out 'tolerance', or give bits: 8");
+  if (storage.tolerance > 0 && form.bits != 8)
+    throw Error("'tolerance' is for codes of 8 bits; 'bits' is " + std::to_string(form.bits),
+                "storage.tolerance", "leave out 'tolerance', or give bits: 8");
+  const bool between = fetch == FieldFetch::Positions || fetch == FieldFetch::All;
+  if (between &&
+      (form.positionMap != vf::PositionForm::Lattice || form.directionMap != vf::DirectionForm::Concentric))
+    throw Error(std::string("'fetch: ") + limen::toText(fetch) +
+                    "' reads neighbours, which it knows on a lattice of concentric maps",
+                "fetch", "give fetch: nearest or aimed, or leave out 'position_map' and 'direction_map'");
 }
 
 void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth) {
@@ -197,11 +251,21 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  fields_.emplace(frame.context(), objects, settings_.form, settings_.tolerance, settings_.use.folder);
+  if (const auto* bySize = std::get_if<BySizeDetail>(&settings_.storage.detail))
+    settings_.form = formBySize(settings_.form, objectsSizePx(frame.camera(), frame.sizePx(), objects),
+                                frame.sizePx(), bySize->error);
+  fields_.emplace(frame.context(), objects, settings_.form, settings_.storage.tolerance,
+                  settings_.storage.folder);
   objectOf_.emplace(whole.objectOf);
   std::vector<vf::Pose> poses;
   for (const vf::RigidObject& object : objects) poses.push_back(vf::VisibilityFields::poseOf(object));
   fields_->place(poses, frame.gpuScene().anchor());
+}
+
+gl::ShaderDefines FieldReader::defines() const {
+  gl::ShaderDefines defines = fields_->defines();
+  defines["FIELD_FETCH"] = std::to_string(static_cast<int>(settings_.fetch));
+  return defines;
 }
 
 void FieldReader::bind(const gl::Program& program) const {
@@ -230,7 +294,8 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
 std::vector<std::string> FieldReader::remarks() const {
   if (!fields_ || fields_->fieldsRead() == 0) return {};
   return {std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
-          " fields were read from '" + settings_.use.folder + "' and not made: preparation took less time"};
+          " fields were read from '" + settings_.storage.folder +
+          "' and not made: preparation took less time"};
 }
 
 std::vector<Quantity> FieldReader::quantities() {

@@ -22,7 +22,7 @@ Binding<S> objectsBinding(visibility_fields::ObjectSetting S::*member) {
   return {member, "objects", "What of the scene is one rigid object", "bench (auto)"};
 }
 
-/// What is made of the pixels of a tile that have different rays.
+/// What is made of interleaved pixels.
 struct NoFilter {
   static constexpr const char *kKind = "none", *kSummary = "each pixel has the mean of its own rays";
   static const SettingsTable<NoFilter>& table();
@@ -38,21 +38,41 @@ struct BilateralFilter {
 };
 using FilterSetting = std::variant<NoFilter, BilateralFilter>;
 
+/// Where the rays of a pixel lie in their cells.
+struct SamePattern {
+  static constexpr const char *kKind = "same", *kSummary = "in the middle, for all pixels alike";
+  static const SettingsTable<SamePattern>& table();
+};
+struct TurnedPattern {
+  static constexpr const char *kKind = "turned", *kSummary = "other rays for each pixel, at random";
+  int64_t seed = 1;
+  static const SettingsTable<TurnedPattern>& table();
+};
+struct InterleavedPattern {
+  static constexpr const char *kKind = "interleaved",
+                              *kSummary =
+                                  "pixels of a tile have other rays of a finer grid, one in every "
+                                  "cell of their own";
+  int side = 4;
+  FilterSetting filter;
+  static const SettingsTable<InterleavedPattern>& table();
+};
+using PatternSetting = std::variant<SamePattern, TurnedPattern, InterleavedPattern>;
+
 /// Rays a pixel, its receiver and the objects that may block them: the same for a field and for the tracer
 /// that it is compared with.
 struct ReceiverRays {
   int64_t rays = 64;
-  bool turned = false;
-  int64_t seed = 1;
-  int interleave = 1;
-  FilterSetting filter;
+  PatternSetting pattern;
   bool selfOcclusion = true;
   visibility_fields::ObjectSetting objects;
   static const SettingsTable<ReceiverRays>& table();
-  /// Throws Error unless `rays` is a square number and pixels are interleaved where they are filtered.
+  /// Throws Error unless `rays` is a square number.
   void check() const;
 
   int side() const;
+  /// Pixels along the side of a tile that share a grid of rays; 1: none do.
+  int interleave() const;
   /// Makes the inputs of field_receiver.glsl, before a pass is opened.
   static void makeInputs(frame::Frame& frame);
   /// Textures and uniforms of field_receiver.glsl and of the rays' cells; after makeInputs().
@@ -63,17 +83,57 @@ struct ReceiverRays {
 struct FieldUse {
   double slack = 1.0;
   int spheres = 1;
-  std::string folder;
   static const SettingsTable<FieldUse>& table();
 };
+
+/// What of a field a look-up reads.
+enum class FieldFetch { Nearest, Aimed, Positions, All };
+constexpr EnumNames<FieldFetch, 4> enumNames(FieldFetch) {
+  return {{{{FieldFetch::Nearest, "nearest"},
+            {FieldFetch::Aimed, "aimed"},
+            {FieldFetch::Positions, "positions"},
+            {FieldFetch::All, "all"}}}};
+}
+
+/// How fine fields are.
+struct GivenDetail {
+  static constexpr const char *kKind = "given", *kSummary = "as given, wherever the objects are";
+  static const SettingsTable<GivenDetail>& table();
+};
+struct BySizeDetail {
+  static constexpr const char *kKind = "by_size",
+                              *kSummary =
+                                  "the least bytes that keep to an error by the objects' size in the "
+                                  "picture when they are made; what is given is the finest";
+  double error = 0.02;
+  static const SettingsTable<BySizeDetail>& table();
+};
+using DetailSetting = std::variant<GivenDetail, BySizeDetail>;
+
+/// How fields are kept.
+struct FieldStorage {
+  std::string folder;
+  int tolerance = 0;
+  DetailSetting detail;
+  static const SettingsTable<FieldStorage>& table();
+};
+template <class S>
+Binding<S> folderBinding(std::string S::*member) {
+  return {
+      member, "folder",
+      "Folder in which fields are kept by their content, so that the next run reads them: its preparation "
+      "time is that of reading; none: made each time"};
+}
 
 /// How fields are made and read.
 struct FieldReading {
   visibility_fields::FieldForm form;
   FieldUse use;
-  int tolerance = 0;
+  FieldFetch fetch = FieldFetch::Aimed;
+  FieldStorage storage;
   static const SettingsTable<FieldReading>& table();
-  /// Throws Error if there is a tolerance for codes of other than 8 bits.
+  /// Throws Error if there is a tolerance for codes of other than 8 bits, or if a look-up between positions
+  /// or directions has no neighbours.
   void check() const;
 };
 
@@ -84,7 +144,9 @@ class FieldReader {
   /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
   /// `smooth`: fields with normals have those of vertices.
   void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true);
-  gl::ShaderDefines defines() const { return settings_.form.defines(); }
+  /// After prepare().
+  gl::ShaderDefines defines() const;
+  uint32_t objectCount() const { return fields_->objectCount(); }
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
 
@@ -103,7 +165,7 @@ class FieldReader {
   static gl::Buffer emptyCounts();
   std::vector<Counter> countersOf(const gl::Buffer& counts, const frame::Frame& frame) const;
 
-  FieldReading settings_;
+  FieldReading settings_;  ///< with the form that was chosen
   std::optional<visibility_fields::VisibilityFields> fields_;
   std::optional<gl::Buffer> objectOf_;
 };

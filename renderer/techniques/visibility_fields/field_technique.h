@@ -16,7 +16,8 @@
 
 namespace limen::techniques {
 
-/// S: also `field`, a FieldReading, and define(), which adds to the shader's defines.
+/// S: also `field`, a FieldReading, define(), which adds to the shader's defines, and passes() over the
+/// picture for a number of objects, each with its own `passObject`.
 template <class S>
 class FieldTechnique : public Technique {
  public:
@@ -52,9 +53,13 @@ class FieldTechnique : public Technique {
     reader_.bind(program);
     if (counts) counts->bindStorage(kFieldCountsBuffer);
     settings_.rays.configure(program, frame);
-    picture_->bindImage(kFieldOutImage, gl::Access::Write);
-    program.dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
+    const int passes = settings_.passes(reader_.objectCount());
+    for (int pass = 0; pass < passes; ++pass) {
+      if (passes > 1) program.set("passObject", static_cast<uint32_t>(pass));
+      program.dispatch(frame.sizePx());
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
   }
 
   S settings_;

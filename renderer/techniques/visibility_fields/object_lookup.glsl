@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A receiver's rays against all objects by their fields, and the count of look-ups. Set up by FieldReader::bind().
-#include "renderer/visibility_fields/field_lookup.glsl"
+// A receiver's rays against all objects by their fields, and the count of look-ups. Set up by FieldReader::bind(). Including shaders define
+// seenAt().
+#include "renderer/visibility_fields/field_seen.glsl"
 
 #include "renderer/techniques/visibility_fields/field_counts.glsl"
 uniform float slack;  // diameters
@@ -12,13 +13,24 @@ bool canBlock(FieldReceiver receiver, uint object) {
   return dot(of.centre - receiver.origin, receiver.normal) > -of.radius;
 }
 
-// Distance to the nearest object; kFieldNothing: none.
-float nearestDistance(FieldReceiver receiver, vec3 direction) {
-  float nearest = kFieldNothing;
-  for (uint object = 0u; object < fieldObjectCount; ++object) {
-    if (!canBlock(receiver, object)) continue;
-    const float distance = fieldDistance(object, receiver.origin, direction, slack);
-    if (distance >= 0.0 && (nearest < 0.0 || distance < nearest)) nearest = distance;
-  }
-  return nearest;
+// Only an object's own surface must be told from what blocks its rays.
+float slackOf(FieldReceiver receiver, FieldObject object) { return receiver.object == object.owner ? slack : 0.0; }
+
+// Share of a ray that an object lets through.
+float seenPast(FieldReceiver receiver, uint index, vec3 direction) {
+  const FieldObject object = fieldObjects[index];
+#if FIELD_FETCH == 0
+  const float distance = fieldHit(object, receiver.origin, direction, slackOf(receiver, object)).distance;
+  return distance < 0.0 ? 1.0 : seenAt(distance);
+#else
+  return fieldSeen(fieldView(object, receiver.origin, slackOf(receiver, object)), fieldToObject(object, direction));
+#endif
+}
+
+// Past all: what the one lets through that lets through least.
+float seenPastAll(FieldReceiver receiver, vec3 direction) {
+  float least = 1.0;
+  for (uint object = 0u; object < fieldObjectCount; ++object)
+    if (canBlock(receiver, object)) least = min(least, seenPast(receiver, object, direction));
+  return least;
 }

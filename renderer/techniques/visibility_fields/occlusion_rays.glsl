@@ -18,9 +18,21 @@ OcclusionFrame occlusionFrame(ivec2 pixel, FieldReceiver receiver) {
   return OcclusionFrame(cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x, receiver.normal, placeInCell(pixel));
 }
 
-// Spread by the cosine.
-vec3 occlusionDirection(OcclusionFrame frame, ivec2 cell) {
-  const vec3 local = fieldDirection((vec2(cell) + frame.within) / float(raySide), kFieldConcentric);
+// Directions about z of the first rays, the same for all pixels unless these are interleaved.
+const int kRayTableSize = 256;
+shared vec3 rayTable[kRayTableSize];
+void makeRayTable() {
+  const int count = min(raySide * raySide, kRayTableSize);
+  for (int i = int(gl_LocalInvocationIndex); i < count; i += kGroupSide * kGroupSide)
+    rayTable[i] = fieldDirection((vec2(i % raySide, i / raySide) + 0.5) / float(raySide), kFieldConcentric);
+  barrier();
+}
+
+// Spread by the cosine. After makeRayTable().
+vec3 occlusionDirection(OcclusionFrame frame, int ray) {
+  vec3 local;
+  if (interleave == 1 && ray < kRayTableSize) local = rayTable[ray];
+  else local = fieldDirection((vec2(ray % raySide, ray / raySide) + frame.within) / float(raySide), kFieldConcentric);
   return normalize(local.x * frame.x + local.y * frame.y + local.z * frame.z);
 }
 

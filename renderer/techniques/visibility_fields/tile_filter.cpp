@@ -10,8 +10,13 @@
 
 namespace limen::techniques {
 
+const BilateralFilter* TileFilter::bilateral() const {
+  const auto* interleaved = std::get_if<InterleavedPattern>(&rays_.pattern);
+  return interleaved ? std::get_if<BilateralFilter>(&interleaved->filter) : nullptr;
+}
+
 void TileFilter::prepare(frame::Frame& frame) {
-  if (std::holds_alternative<NoFilter>(rays_.filter)) return;
+  if (!bilateral()) return;
   gl::ShaderDefines defines{{"OUT_FORMAT", format_ == gl::Format::R32F ? "r32f" : "rgba32f"}};
   if (format_ == gl::Format::R32F) defines["RECEIVERS_ONLY"] = "1";
   program_ = &frame.context().programs().compute(
@@ -21,7 +26,7 @@ void TileFilter::prepare(frame::Frame& frame) {
 }
 
 void TileFilter::run(frame::Frame& frame, const gl::Texture& raw) {
-  const auto* filter = std::get_if<BilateralFilter>(&rays_.filter);
+  const BilateralFilter* filter = bilateral();
   if (!filter) return;
   ReceiverRays::makeInputs(frame);
   if (format_ == gl::Format::R32F) frame.get<frame::Receivers>();

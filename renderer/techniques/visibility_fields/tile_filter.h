@@ -25,6 +25,8 @@ class TileFilter {
   const gl::Texture& product(const gl::Texture& raw) const { return filtered_ ? *filtered_ : raw; }
 
  private:
+  const BilateralFilter* bilateral() const;  ///< null: none is asked for
+
   ReceiverRays rays_;
   std::string pass_;
   gl::Format format_;

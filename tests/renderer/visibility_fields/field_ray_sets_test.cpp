@@ -37,7 +37,8 @@ TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
   const scene::Scene scene = onePoint();
   for (const char* name : {"visibility_fields/traced_occlusion", "visibility_fields/traced_shadows",
                            "visibility_fields/ambient_occlusion", "visibility_fields/soft_shadows"}) {
-    Given fine = {{"rays", int64_t{256}}}, shared = {{"rays", int64_t{16}}, {"interleave", int64_t{4}}};
+    Given fine = {{"rays", int64_t{256}}},
+          shared = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}};
     if (std::string(name).find("occlusion") != std::string::npos)
       for (Given* given : {&fine, &shared}) (*given)["radius"] = 10.0;
     const double expected = meanOfPixels(render(scene, name, fine, {4, 4}).product);
@@ -53,7 +54,7 @@ TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
     // Where all of its window lies in the picture, a filtered pixel is that mean. Neighbours are 4e-6 apart
     // and known to 1e-8, so that planes through them seem to lean by up to 0.0025, and weights are off by
     // that over the filter's sine of 20 degrees, 0.0073; values are within 0.1 of their mean.
-    shared["filter"] = std::string("bilateral");
+    shared["pattern.filter"] = std::string("bilateral");
     const Image filtered = render(scene, name, shared, {16, 16}).product;
     for (int y = 2; y < 14; ++y)
       for (int x = 2; x < 14; ++x)
@@ -69,9 +70,10 @@ TEST_F(FieldRaySetsTest, SurfacesDoNotMix) {
   scene::addPart(scene, "box", scene::box({-0.5, 0.1, -0.5}, {0.5, 0.5, 0.5}), glm::vec3(0.5F));
   scene::setStillCamera(scene, {{0.0, 3.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 40.0});
   constexpr int kSide = 64;
-  Given given = {{"rays", int64_t{16}}, {"interleave", int64_t{8}}, {"radius", 10.0}};
+  Given given = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}, {"radius", 10.0}};
+  given["pattern.side"] = int64_t{8};
   const Image plain = render(scene, "visibility_fields/traced_occlusion", given, {kSide, kSide}).product;
-  given["filter"] = std::string("bilateral");
+  given["pattern.filter"] = std::string("bilateral");
   const Image filtered = render(scene, "visibility_fields/traced_occlusion", given, {kSide, kSide}).product;
   // Half the top, 0.5 at a distance of 2.5, in pixels, and a pixel within it.
   const int half = static_cast<int>(0.5 / (2.5 * std::tan(glm::radians(20.0))) * kSide / 2) - 1;
@@ -87,13 +89,6 @@ TEST_F(FieldRaySetsTest, SurfacesDoNotMix) {
       }
     }
   EXPECT_LT(darkest, 0.8);
-}
-
-TEST_F(FieldRaySetsTest, RefusesToInterleaveRandomRays) {
-  const auto refused =
-      refusal("visibility_fields/soft_shadows", {{"turned", true}, {"interleave", int64_t{2}}});
-  ASSERT_TRUE(refused);
-  EXPECT_NE(std::string(refused->what()).find("interleave"), std::string::npos);
 }
 
 }  // namespace

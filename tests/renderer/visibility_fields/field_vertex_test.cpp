@@ -178,8 +178,8 @@ TEST_F(FieldVertexTest, InterleavedAndFilteredPixelsHaveTheRaysOfTheirTile) {
   const scene::Scene scene = ballsOverAGrid();
   Given few = {{"rays", int64_t{16}}, {"radius", 10.0}}, many = {{"rays", int64_t{256}}, {"radius", 10.0}};
   const Image plain = render(scene, "visibility_fields/ambient_occlusion", few, kVertexSizePx).product;
-  few["interleave"] = int64_t{4};
-  few["filter"] = std::string("bilateral");
+  few["pattern"] = std::string("interleaved");
+  few["pattern.filter"] = std::string("bilateral");
   const Image filtered = render(scene, "visibility_fields/ambient_occlusion", few, kVertexSizePx).product;
   const Image whole = render(scene, "visibility_fields/ambient_occlusion", many, kVertexSizePx).product;
   double before = 0.0, after = 0.0;
@@ -194,13 +194,11 @@ TEST_F(FieldVertexTest, InterleavedAndFilteredPixelsHaveTheRaysOfTheirTile) {
 
 // Pixels on either side of an edge have nothing in common: a box before the floor keeps its own values.
 TEST_F(FieldVertexTest, TheFilterKeepsEdges) {
-  EXPECT_TRUE(refusal("visibility_fields/ambient_occlusion", {{"filter", std::string("bilateral")}}));
-  EXPECT_TRUE(refusal("visibility_fields/ambient_occlusion", {{"interleave", int64_t{4}}, {"turned", true}}));
   const scene::Scene scene = makeScene("two_boxes");
-  Given given = {{"rays", int64_t{16}}, {"interleave", int64_t{4}}, {"radius", 0.05}};
-  given["filter"] = std::string("bilateral");
+  Given given = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}, {"radius", 0.05}};
+  given["pattern.filter"] = std::string("bilateral");
   const Image sharp = render(scene, "visibility_fields/traced_occlusion", given, {80, 60}).product;
-  given["filter.angle_deg"] = 90.0;
+  given["pattern.filter.angle_deg"] = 90.0;
   const Image loose = render(scene, "visibility_fields/traced_occlusion", given, {80, 60}).product;
   const Image truth = render(scene, "visibility_fields/traced_occlusion",
                              {{"rays", int64_t{256}}, {"radius", 0.05}}, {80, 60})

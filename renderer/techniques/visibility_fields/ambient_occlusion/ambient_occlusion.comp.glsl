@@ -3,30 +3,32 @@
 #include "renderer/techniques/visibility_fields/occlusion_rays.glsl"
 #include "renderer/techniques/visibility_fields/object_lookup.glsl"
 
-layout(binding = kFieldOutImage, rgba32f) uniform writeonly image2D outImage;
+layout(binding = kFieldOutImage, rgba32f) uniform image2D outImage;
+uniform uint passObject;  // of a pass for each object
 
-#if COMBINE == 0
-float openShare(FieldReceiver receiver, OcclusionFrame frame) {
-  float open = 0.0;
-  for (int y = 0; y < raySide; ++y)
-    for (int x = 0; x < raySide; ++x) {
-      const float nearest = nearestDistance(receiver, occlusionDirection(frame, ivec2(x, y)));
-      open += nearest < 0.0 ? 1.0 : visibilityAt(nearest);
-    }
-  return open / float(raySide * raySide);
-}
-#else
+float seenAt(float distance) { return visibilityAt(distance); }
+
 float openShareOf(FieldReceiver receiver, OcclusionFrame frame, uint object) {
   float open = 0.0;
-  for (int y = 0; y < raySide; ++y)
-    for (int x = 0; x < raySide; ++x) {
-      const float distance = fieldDistance(object, receiver.origin, occlusionDirection(frame, ivec2(x, y)), slack);
-      open += distance < 0.0 ? 1.0 : visibilityAt(distance);
-    }
+#if FIELD_FETCH == 0
+  for (int i = 0; i < raySide * raySide; ++i) open += seenPast(receiver, object, occlusionDirection(frame, i));
+#else
+  // In the object's axes once for all rays.
+  const FieldObject of = fieldObjects[object];
+  const FieldView view = fieldView(of, receiver.origin, slackOf(receiver, of));
+  const OcclusionFrame own = OcclusionFrame(fieldToObject(of, frame.x), fieldToObject(of, frame.y), fieldToObject(of, frame.z), frame.within);
+  for (int i = 0; i < raySide * raySide; ++i) open += fieldSeen(view, occlusionDirection(own, i));
+#endif
   return open / float(raySide * raySide);
 }
 
 float openShare(FieldReceiver receiver, OcclusionFrame frame) {
+#if COMBINE == 0
+  if (fieldObjectCount == 1u) return canBlock(receiver, 0u) ? openShareOf(receiver, frame, 0u) : 1.0;
+  float open = 0.0;
+  for (int i = 0; i < raySide * raySide; ++i) open += seenPastAll(receiver, occlusionDirection(frame, i));
+  return open / float(raySide * raySide);
+#else
   float open = 1.0;
   for (uint object = 0u; object < fieldObjectCount; ++object) {
     if (!canBlock(receiver, object)) continue;
@@ -37,15 +39,23 @@ float openShare(FieldReceiver receiver, OcclusionFrame frame) {
 #endif
   }
   return max(open, 0.0);
-}
 #endif
+}
 
 void main() {
+  makeRayTable();
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   FieldReceiver receiver;
-  float open = 1.0;
-  if (fieldReceiver(pixel, receiver)) open = openShare(receiver, occlusionFrame(pixel, receiver));
+  const bool shown = fieldReceiver(pixel, receiver);
+#if COMBINE == 3
+  // GL_FUNC_REVERSE_SUBTRACT: what is there less what this object hides.
+  float open = passObject == 0u ? 1.0 : imageLoad(outImage, pixel).x;
+  if (shown && passObject < fieldObjectCount && canBlock(receiver, passObject))
+    open = max(open - (1.0 - openShareOf(receiver, occlusionFrame(pixel, receiver), passObject)), 0.0);
+#else
+  const float open = shown ? openShare(receiver, occlusionFrame(pixel, receiver)) : 1.0;
+#endif
   imageStore(outImage, pixel, vec4(vec3(open), 1.0));
   countLookUps(pixel);
 }

@@ -2,7 +2,9 @@
 // Ambient occlusion from visibility fields: the distance that a ray runs to an object is that to its bounding
 // sphere and what the field says from there, so that cost does not depend on triangles. Source: Gaitatzes
 // 2012, sections 4.4 to 4.7; several objects by the nearest hit of each ray (the bench's own), by products,
-// or by passes that subtract (section 4.5.1).
+// or by passes that subtract (section 4.7.1, Fig. 41).
+#include <algorithm>
+
 #include "experiments/base/error.h"
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/occlusion_settings.h"
@@ -10,15 +12,17 @@
 namespace limen::techniques {
 namespace {
 
-enum class CombineObjects { Nearest, Product, Subtract };
-constexpr EnumNames<CombineObjects, 3> enumNames(CombineObjects) {
+enum class CombineObjects { Nearest, Product, Subtract, Passes };
+constexpr EnumNames<CombineObjects, 4> enumNames(CombineObjects) {
   return {{{{CombineObjects::Nearest, "nearest"},
             {CombineObjects::Product, "product"},
-            {CombineObjects::Subtract, "subtract"}}}};
+            {CombineObjects::Subtract, "subtract"},
+            {CombineObjects::Passes, "passes"}}}};
 }
 static_assert(static_cast<int>(CombineObjects::Nearest) == kCombineNearest &&
               static_cast<int>(CombineObjects::Product) == kCombineProduct &&
-              static_cast<int>(CombineObjects::Subtract) == kCombineSubtract);
+              static_cast<int>(CombineObjects::Subtract) == kCombineSubtract &&
+              static_cast<int>(CombineObjects::Passes) == kCombinePasses);
 
 struct FieldOcclusionSettings {
   static constexpr const char* kShader =
@@ -36,8 +40,9 @@ struct FieldOcclusionSettings {
                                             {&S::combine, "combine",
                                              "Several objects: the nearest hit of each ray, the product of "
                                              "what each leaves visible, or their occlusions "
-                                             "subtracted one after another",
-                                             "Gaitatzes 2012, section 4.5.1 (subtract)"}};
+                                             "subtracted one after another, in one pass or in a full pass "
+                                             "for each object",
+                                             "Gaitatzes 2012, section 4.7.1 (passes)"}};
     return kTable;
   }
   void check() const {
@@ -46,6 +51,9 @@ struct FieldOcclusionSettings {
                       "' would count each of an object's 'spheres' by itself",
                   "spheres", "leave out 'spheres', or use combine: nearest");
   }
+  int passes(uint32_t objects) const {
+    return combine == CombineObjects::Passes ? std::max(static_cast<int>(objects), 1) : 1;
+  }
   void define(gl::ShaderDefines& defines) const {
     defines["COMBINE"] = std::to_string(static_cast<int>(combine));
   }
@@ -53,7 +61,7 @@ struct FieldOcclusionSettings {
 
 const RegisteredTechnique<FieldTechnique<FieldOcclusionSettings>> kFieldOcclusion{
     {.name = "visibility_fields/ambient_occlusion",
-     .version = 1,
+     .version = 2,
      .summary = "Ambient occlusion by rays whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, sections 4.4 to 4.7 (VF-01 to VF-18)",
      .product = ProductKind::Colour,

@@ -33,6 +33,7 @@ struct NormalField {
   int directions = 32;
   int distanceBits = 8;
   FieldUse use;
+  std::string folder;
   static const SettingsTable<NormalField>& table() {
     using S = NormalField;
     static const SettingsTable<S> kTable = {
@@ -43,11 +44,15 @@ struct NormalField {
         {&S::distanceBits, "distance_bits", oneOf({8, 16}), "bit",
          "Of the 32 bits of a ray those of its distance; the rest are the normal's",
          "Gaitatzes 2012, section 4.5.1 (4 bytes; 8 and 3 x 8 is a reading)"},
-        included(&S::use)};
+        included(&S::use),
+        folderBinding(&S::folder)};
     return kTable;
   }
   FieldReading reading() const {
-    return {{positionMap, positions, directionMap, directions, 32, distanceBits}, use, 0};
+    return {{positionMap, positions, directionMap, directions, 32, distanceBits},
+            use,
+            FieldFetch::Nearest,
+            {folder, 0, GivenDetail{}}};
   }
 };
 

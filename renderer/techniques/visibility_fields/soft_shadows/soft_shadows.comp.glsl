@@ -5,13 +5,16 @@
 
 layout(binding = kFieldOutImage, r32f) uniform writeonly image2D outImage;
 
+float reach = 0.0;  // of the ray that is looked up
+float seenAt(float distance) { return distance < reach ? 0.0 : 1.0; }
+
 float seenShare(ivec2 pixel, FieldReceiver receiver) {
   float seen = 0.0;
   for (int y = 0; y < raySide; ++y)
     for (int x = 0; x < raySide; ++x) {
       const vec3 way = lightPoint(pixel, receiver, ivec2(x, y)) - receiver.origin;
-      const float reach = length(way), nearest = nearestDistance(receiver, way / reach);
-      seen += nearest >= 0.0 && nearest < reach ? 0.0 : 1.0;
+      reach = length(way);
+      seen += seenPastAll(receiver, way / reach);
     }
   return seen / float(raySide * raySide);
 }

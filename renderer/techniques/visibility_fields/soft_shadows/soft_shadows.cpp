@@ -20,12 +20,13 @@ struct FieldShadowSettings {
     static const SettingsTable<S> kTable = {included(&S::rays), included(&S::field)};
     return kTable;
   }
+  int passes(uint32_t) const { return 1; }
   void define(gl::ShaderDefines&) const {}
 };
 
 const RegisteredTechnique<FieldTechnique<FieldShadowSettings>> kFieldShadows{
     {.name = "visibility_fields/soft_shadows",
-     .version = 1,
+     .version = 2,
      .summary = "Soft shadows by rays to a light whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-19)",
      .product = ProductKind::Visibility,

@@ -7,6 +7,7 @@ layout(binding = kFieldOutImage, rgba32f) uniform image2D outImage;
 uniform int firstRow, lastRow;  // of the rays' cells
 
 void main() {
+  makeRayTable();
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, sizePx))) return;
   FieldReceiver receiver;
@@ -18,7 +19,7 @@ void main() {
   float open = firstRow == 0 ? 0.0 : imageLoad(outImage, pixel).x;
   for (int y = firstRow; y <= lastRow; ++y)
     for (int x = 0; x < raySide; ++x) {
-      const vec3 direction = occlusionDirection(frame, ivec2(x, y));
+      const vec3 direction = occlusionDirection(frame, y * raySide + x);
       if (falloff == kFalloffBinary) {
         open += isBlocked(receiver, direction, falloffRadius) ? 0.0 : 1.0;
       } else {

@@ -34,7 +34,6 @@ class VertexFieldOcclusion : public VertexTechnique {
                       std::to_string(static_cast<int64_t>(bytes)) + " bytes of main memory",
                   "directions", "store fewer positions or directions");
     fields_.clear();
-    slack_ = 0.5 * visibility_fields::fieldSpacing(form_);
     for (const visibility_fields::RigidObject& object : objects) fields_.emplace_back(object, form_);
     int64_t held = 0;
     for (const visibility_fields::CpuField& field : fields_) held += 4 * field.rayCount();
@@ -45,7 +44,7 @@ class VertexFieldOcclusion : public VertexTechnique {
     std::fill(out.begin(), out.end(), -1.0);
     for (const visibility_fields::CpuField& field : fields_)
       for (size_t i = 0; i < directions.size(); ++i) {
-        const double distance = field.distance(origin, directions[i], slack_);
+        const double distance = field.distance(origin, directions[i], 0.0);
         if (distance >= 0.0 && (out[i] < 0.0 || distance < out[i])) out[i] = distance;
       }
   }
@@ -59,7 +58,6 @@ class VertexFieldOcclusion : public VertexTechnique {
  private:
   visibility_fields::FieldForm form_;
   std::vector<visibility_fields::CpuField> fields_;
-  double slack_ = 0.0;  ///< diameters
 };
 
 std::vector<Quantity> vertexFieldQuantities() {
@@ -71,7 +69,7 @@ std::vector<Quantity> vertexFieldQuantities() {
 
 const RegisteredTechnique<VertexFieldOcclusion> kVertexFieldOcclusion{
     {.name = "visibility_fields/vertex_occlusion",
-     .version = 1,
+     .version = 2,
      .summary = "Ambient occlusion of vertices that only receive, from visibility fields on the CPU",
      .source = "Gaitatzes 2012, section 4.6.1 (VF-15, VF-07)",
      .product = ProductKind::Colour,

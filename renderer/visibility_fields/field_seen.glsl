@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a ray sees past an object, by neighbours in its field: they need not agree on what is hit, so that what each lets through is weighed and
+// not its distance. Each position is asked for the direction to where the ray is likely to meet the object (Gortler et al. 1996 call it depth
+// correction): halfway through the sphere or, from inside, at the origin, since back from where the ray leaves only what lies before the origin
+// counts. Including shaders define seenAt(). Set up as field_lookup.glsl.
+#include "renderer/visibility_fields/field_lookup.glsl"
+
+// Share of the ray that a surface at this distance lets through.
+float seenAt(float distance);
+
+// Of an object, in its own axes and radii.
+struct FieldView {
+  vec3 origin;  // of the rays
+  float radius, slack;  // slack: radii
+  int firstMap;
+};
+FieldView fieldView(FieldObject object, vec3 origin, float slack) {
+  return FieldView(fieldToObject(object, origin - object.centre) / object.radius, object.radius, 2.0 * slack, int(object.firstMap));
+}
+
+// asin to 7e-5 (Abramowitz and Stegun 4.4.45): a hundredth of the distance between positions at most.
+vec3 fieldAngles(vec3 x) {
+  return 1.5707963 - sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
+}
+
+// Point of the unit disc that stands for the way from a position to `aim`: fieldTangent() and fieldBitangent() of the normal, written out.
+vec3 fieldLocal(vec3 position, vec3 aim) {
+  const vec3 z = -position, v = aim - position;
+  const float s = z.z >= 0.0 ? 1.0 : -1.0;
+  const float w = -(z.x * v.x + z.y * v.y) / (s + z.z) - v.z;
+  return inversesqrt(dot(v, v)) * vec3(v.x + s * z.x * w, s * v.y + z.y * w, dot(z, v));
+}
+
+// As fieldPlace(), the angle to 1e-5 (Abramowitz and Stegun 4.4.49): a thousandth of a texel.
+vec2 fieldSeenPlace(vec3 local) {
+#if FIELD_DIRECTION_FORM == 2
+  const vec2 size = abs(local.xy);
+  const float t = min(size.x, size.y) / max(max(size.x, size.y), 1e-12), t2 = t * t;
+  const float turn = t * (1.2730689 + t2 * (-0.4205504 + t2 * (0.2293627 + t2 * (-0.1083947 + t2 * 0.0265281))));
+  const vec2 p = min(length(local.xy), 1.0) * (size.x >= size.y ? vec2(1.0, turn) : vec2(turn, 1.0));
+  return 0.5 + 0.5 * vec2(local.x < 0.0 ? -p.x : p.x, local.y < 0.0 ? -p.y : p.y);
+#else
+  return fieldPlace(local, FIELD_DIRECTION_FORM);
+#endif
+}
+
+// Where the ray is looked up, and what the codes there mean.
+struct FieldAsk {
+  vec3 aim;
+  float from, along;  // of a distance, in radii: from + along * 2 * share
+  float least;        // of it, to count
+};
+
+float fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+  const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
+  const float distance = ask.from + 2.0 * ask.along * share;
+  return share < 0.0 || distance <= ask.least ? 1.0 : seenAt(view.radius * distance);
+}
+
+float fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
+  vec3 local = fieldLocal(fieldMaps[map].xyz, ask.aim);
+#if FIELD_FETCH == 3
+  const vec2 place = float(FIELD_SIDE) * fieldSeenPlace(local) - 0.5;
+  const vec2 corner = floor(place), f = place - corner;
+  const ivec2 at = ivec2(corner);
+  return mix(mix(fieldSeenTexel(view, ask, map, at), fieldSeenTexel(view, ask, map, at + ivec2(1, 0)), f.x),
+             mix(fieldSeenTexel(view, ask, map, at + ivec2(0, 1)), fieldSeenTexel(view, ask, map, at + ivec2(1, 1)), f.x), f.y);
+#else
+#if FIELD_DIRECTION_FORM == 2
+  return fieldSeenTexel(view, ask, map, ivec2(float(FIELD_SIDE) * fieldSeenPlace(local)));
+#else
+  return fieldSeenTexel(view, ask, map, fieldTexel(local, FIELD_SIDE, FIELD_DIRECTION_FORM));
+#endif
+#endif
+}
+
+#if FIELD_POSITION_FORM == 0
+// Map of the lattice's position in row and column `at` of the octant of `point`.
+int fieldCornerMap(FieldView view, vec3 point, ivec2 at) {
+  const ivec2 own = ivec2(point.x < 0.0 ? -at.x : at.x, point.y < 0.0 ? -at.y : at.y);
+  return view.firstMap + fieldLatticeIndex(own.x, own.y, point.z < 0.0, FIELD_SEGMENTS);
+}
+#endif
+
+// Share of a ray that the object lets through. `direction`: unit, in the object's axes.
+float fieldSeen(FieldView view, vec3 direction) {
+  const float along = -dot(view.origin, direction);
+  const vec3 middle = view.origin + along * direction;
+  const float squared = 1.0 - dot(middle, middle);
+  if (!(squared > 0.0)) return 1.0;
+  const float halfLength = sqrt(squared), leave = along + halfLength, entry = along - halfLength;
+  if (!(leave > 0.0)) return 1.0;
+  ++fieldLookUps;
+  const bool inside = entry < 0.0;
+  const vec3 point = middle + (inside ? halfLength : -halfLength) * direction;
+  FieldAsk ask;
+  ask.aim = inside ? view.origin : middle;
+  ask.from = inside ? leave : entry;
+  ask.along = inside ? -1.0 : 1.0;
+  ask.least = inside ? view.slack : -1.0;
+#if FIELD_POSITION_FORM != 0
+  return fieldSeenFrom(view, ask, view.firstMap + fieldNearestPosition(uint(view.firstMap), normalize(point)));
+#else
+  // The triangle of the lattice around the point, and its place in it.
+  const vec3 angles = fieldAngles(min(abs(point), vec3(1.0)));
+  const vec2 place = float(FIELD_SEGMENTS) / (angles.x + angles.y + angles.z) * angles.xy;
+  const vec2 corner = floor(place), f = place - corner;
+  const ivec2 cell = ivec2(corner);
+  const bool upper = f.x + f.y > 1.0 && cell.x + cell.y + 2 <= FIELD_SEGMENTS;
+  const vec3 weights = upper ? vec3(f.x + f.y - 1.0, 1.0 - f.y, 1.0 - f.x) : vec3(max(1.0 - f.x - f.y, 0.0), f.x, f.y);
+  const ivec2 first = upper ? cell + 1 : cell, second = cell + ivec2(1, 0), third = cell + ivec2(0, 1);
+#if FIELD_FETCH == 1
+  const ivec2 at = weights.x >= max(weights.y, weights.z) ? first : weights.y >= weights.z ? second : third;
+  return fieldSeenFrom(view, ask, fieldCornerMap(view, point, at));
+#else
+  // Rounded, a point on an octant's border may seem to be beyond it, where no corners are.
+  const vec3 counted = cell.x + cell.y < FIELD_SEGMENTS ? weights : vec3(1.0, 0.0, 0.0);
+  float sum = counted.x * fieldSeenFrom(view, ask, fieldCornerMap(view, point, first));
+  if (counted.y > 0.0) sum += counted.y * fieldSeenFrom(view, ask, fieldCornerMap(view, point, second));
+  if (counted.z > 0.0) sum += counted.z * fieldSeenFrom(view, ask, fieldCornerMap(view, point, third));
+  return sum / (counted.x + counted.y + counted.z);
+#endif
+#endif
+}
