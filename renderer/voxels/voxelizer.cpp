@@ -4,54 +4,116 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
 
+#include "renderer/frame/light_paths.h"
+#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/voxels/voxel_bindings.h"
 
 namespace limen::voxels {
 namespace {
 
-/// Groups that share large triangles: some sixty times what an NVIDIA H200 has multiprocessors, as most find
-/// nothing to share and end; at most this many layers of them.
-constexpr uint32_t kSharingGroups = 8192, kMostLayers = 64;
+/// Groups that share large triangles: sixteen for each of an NVIDIA H200's multiprocessors; few where these
+/// are threads of a CPU.
+constexpr GLuint kQueueGroups = 2112, kSoftwareQueueGroups = 32;
+constexpr GLuint kMostGroupsInRow = 65535;
 
-gl::ShaderDefines voxelizerDefines(Coverage coverage, const Volume& into) {
+bool castsShadows(const frame::Frame& frame, const Volume& into, const VoxelLamps& lamps) {
+  return into.attributes().lit() && lamps.shadows && !frame.scene().lights.empty();
+}
+
+gl::ShaderDefines voxelizerDefines(const frame::Frame& frame, Coverage coverage, const Volume& into,
+                                   const VoxelLamps& lamps) {
   gl::ShaderDefines defines = into.defines();
+  defines.merge(into.sumDefines());
   defineEnum(defines, "COVERAGE", coverage);
-  if (into.attributes().any()) defines["SUMS"] = "1";
+  if (into.attributes().pattern) defines["PATTERN"] = "1";
+  if (into.attributes().lit()) defines["VOXEL_LIT"] = "1";
+  if (castsShadows(frame, into, lamps)) {
+    defines["TRACED"] = "1";
+    if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
+    defines["MOST_PASSAGES"] = std::to_string(frame::kMostPassages);
+  }
   return defines;
+}
+
+gl::Buffer queueFor(uint32_t capacity) {
+  gl::Buffer queue(int64_t{sizeof(VoxelQueueHeader)} + int64_t{capacity} * 8, nullptr);
+  queue.clearUint(0);
+  return queue;
 }
 
 }  // namespace
 
-Voxelizer::Voxelizer(gl::Context& context, Coverage coverage, const Volume& into)
-    : program_(context.programs().compute("renderer/voxels/voxelize.comp.glsl",
-                                          voxelizerDefines(coverage, into))) {}
+Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into, const VoxelLamps& lamps,
+                     uint32_t queueCapacity)
+    : context_(frame.context()),
+      lamps_(lamps),
+      traced_(castsShadows(frame, into, lamps)),
+      queueCapacity_(queueCapacity),
+      alone_(context_.programs().compute("renderer/voxels/voxelize.comp.glsl",
+                                         voxelizerDefines(frame, coverage, into, lamps))),
+      queued_(context_.programs().compute("renderer/voxels/voxelize_queued.comp.glsl",
+                                          voxelizerDefines(frame, coverage, into, lamps))),
+      queue_(queueFor(queueCapacity)) {}
 
-void Voxelizer::run(const frame::Frame& frame, const Volume& into) const {
+void Voxelizer::run(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree) const {
   into.clear();
-  add(frame, into);
+  add(frame, into, tree);
   into.finish();
 }
 
-void Voxelizer::add(const frame::Frame& frame, const Volume& into) const {
-  const uint32_t triangles = frame.gpuScene().triangleCount();
-  if (triangles == 0) return;
-  if (into.sums()) frame.bindSurfaces();
+void Voxelizer::configure(const gl::Program& program, const frame::Frame& frame, const Volume& into,
+                          const ray_tracing::RayTree* tree) const {
+  into.configure(program);
+  program.set("queueCapacity", queueCapacity_);
+  program.set("queueTurn", turn_);
+  if (!into.sums()) return;
+  into.configureSums(program);
+  if (!into.attributes().lit()) return;
+  static constexpr std::array<const char*, kVoxelLamps> kPositions = {
+      "lampPositions[0]", "lampPositions[1]", "lampPositions[2]", "lampPositions[3]",
+      "lampPositions[4]", "lampPositions[5]", "lampPositions[6]", "lampPositions[7]"};
+  const auto& lights = frame.scene().lights;
+  const size_t count = std::min(lights.size(), lamps_.all ? kPositions.size() : size_t{1});
+  for (size_t i = 0; i < count; ++i)
+    program.set(kPositions[i], glm::vec3(lights[i].centre - frame.gpuScene().anchor()));
+  program.set("lampCount", static_cast<int>(count));
+  program.set("lampStrength", static_cast<float>(lamps_.strength));
+  if (traced_) (tree ? *tree : frame.gpuScene().rays(context_)).bind(program);
+}
+
+void Voxelizer::add(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree,
+                    TriangleSpan span) const {
+  const uint32_t end = std::min(frame.gpuScene().triangleCount(), span.end);
+  if (span.first >= end) return;
   frame.gpuScene().bindStorage(&frame.positions());
+  if (into.sums()) {
+    frame.bindSurfaces();
+    into.sums()->bindStorage(kVoxelSumsBuffer);
+  }
+  queue_.bindStorage(kVoxelQueueBuffer);
   into.bits().bindImage(kVoxelBitsImage, gl::Access::ReadWrite);
-  if (into.sums()) into.sums()->bindStorage(kVoxelSumsBuffer);
-  into.configure(program_);
-  program_.set("triangleCount", triangles);
-  program_.use();
-  const uint32_t groups = (triangles + kVoxelizeGroup - 1) / kVoxelizeGroup;
-  const uint32_t rows = (groups + 65534) / 65535;
-  // No more layers of groups than the largest triangle has columns for.
-  const glm::ivec3 size = into.grid().resolution;
-  const int side = std::max({size.x, size.y, size.z});
-  const uint32_t most = std::clamp(static_cast<uint32_t>(side * side / kVoxelizeGroup), 1U, kMostLayers);
-  glDispatchCompute((groups + rows - 1) / rows, rows, std::clamp(kSharingGroups / groups, 1U, most));
+  configure(alone_, frame, into, tree);
+  alone_.set("firstTriangle", span.first);
+  alone_.set("triangleCount", end);
+  alone_.use();
+  const GLuint groups = (end - span.first + kVoxelizeGroup - 1) / kVoxelizeGroup;
+  const GLuint rows = (groups + kMostGroupsInRow - 1) / kMostGroupsInRow;
+  glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  configure(queued_, frame, into, tree);
+  queued_.use();
+  glDispatchCompute(context_.device().software ? kSoftwareQueueGroups : kQueueGroups, 1, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT);
+  turn_ = 1 - turn_;
+}
+
+uint32_t Voxelizer::cutShort() const {
+  return queue_.read<uint32_t>(offsetof(VoxelQueueHeader, cutShort), 1)[0];
 }
 
 }  // namespace limen::voxels
