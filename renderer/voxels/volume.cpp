@@ -32,7 +32,8 @@ constexpr AttachmentPlace kPlaces[kVoxelAttributes] = {
 
 int64_t bytesOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
   const int64_t bits = int64_t{(grid.resolution.x + 31) / 32} * grid.resolution.y * grid.resolution.z * 4;
-  const int64_t sums = attributes.any() ? grid.count() * SumLayout(attributes).words * 4 : 0;
+  const int64_t sums =
+      attributes.any() && attributes.summed ? grid.count() * SumLayout(attributes).words * 4 : 0;
   return bits + sums + grid.count() * attributes.bitsPerVoxel() / 8;
 }
 
@@ -51,7 +52,7 @@ VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
     throw Error(what + " takes " + mebibytes(bytes) + ", more than its budget of " +
                     mebibytes(attributes.budgetBytes),
                 {}, "choose a lower resolution, fewer attributes or 16-bit floats, or raise the budget");
-  if (attributes.any()) {
+  if (attributes.any() && attributes.summed) {
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     const int64_t sums = grid.count() * SumLayout(attributes).words * 4;
@@ -82,16 +83,19 @@ Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
   }
   bits_.clearUint(glm::uvec4(0));
   if (!attributes_.any()) return;
-  sums_.emplace(grid.count() * SumLayout(attributes_).words * 4, nullptr);
-  sums_->clearUint(0);
   gl::ShaderDefines own = defines();
   own.merge(sumDefines());
-  finish_ = &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", own);
-  own["BASE"] = "1";
-  finishWith_ = &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", own);
-  own.erase("BASE");
-  own["ERASE"] = "1";
-  erase_ = &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", own);
+  const auto program = [&](const char* define) {
+    gl::ShaderDefines with = own;
+    if (define) with[define] = "1";
+    return &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", with);
+  };
+  erase_ = program("ERASE");
+  if (!attributes_.summed) return;
+  sums_.emplace(grid.count() * SumLayout(attributes_).words * 4, nullptr);
+  sums_->clearUint(0);
+  finish_ = program(nullptr);
+  finishWith_ = program("BASE");
 }
 
 int64_t Volume::bytes() const { return bytesOf(grid_, attributes_); }
@@ -172,7 +176,6 @@ gl::ShaderDefines Volume::sumDefines() const {
 void Volume::configureSums(const gl::Program& program) const {
   program.set("sumSteps", static_cast<float>(sumSteps()));
   program.set("lightSteps", static_cast<float>(lightSteps()));
-  program.set("largestLight", attributes_.largestLight);
 }
 
 void Volume::configure(const gl::Program& program) const {

@@ -40,7 +40,7 @@ class Volume {
   /// Empties it, to be filled by shaders that write to bits() and sums(). Attachments are emptied where
   /// bits() says that voxels are occupied.
   void clear() const;
-  /// For sums of attributes (SumLayout); null without attributes. All 0 after finish().
+  /// For sums of attributes (SumLayout); null without these, or if not asked for. All 0 after finish().
   const gl::Buffer* sums() const { return sums_ ? &*sums_ : nullptr; }
   /// Attachments from the sums, in occupied voxels alone.
   void finish() const;
@@ -58,6 +58,9 @@ class Volume {
   double sumSteps() const;
   double lightSteps() const;
 
+  /// Runs a program that includes volume_words.glsl and is compiled with defines().
+  void dispatchWords(const gl::Program& program) const;
+
   /// One byte a voxel, in the order of VoxelGrid::indexOf(): 1 if occupied. Waits for the GPU.
   std::vector<uint8_t> readOccupied() const;
   /// Sets bits() from what readOccupied() returns.
@@ -65,7 +68,6 @@ class Volume {
 
  private:
   void bindAttachments() const;
-  void dispatchWords(const gl::Program& program) const;
 
   VoxelGrid grid_;
   glm::dvec3 anchor_;

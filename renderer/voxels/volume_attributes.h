@@ -45,6 +45,7 @@ struct VolumeAttributes {
   bool light = false;
   bool shGrey = false;
   bool shColour = false;  ///< three attachments
+  bool summed = true;     ///< filled through sums; otherwise by whoever writes attachments and bits
   bool pattern = true;    ///< reflectance with the solid textures of the materials
   /// Sums are fixed-point numbers. A voxel has at most this many entries (three a triangle always suffice):
   /// the fewer, the finer the steps; 2^31 / entries steps to 1, at most 2^20.

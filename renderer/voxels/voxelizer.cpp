@@ -4,12 +4,8 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <string>
 
-#include "renderer/frame/light_paths.h"
-#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/voxels/voxel_bindings.h"
 
 namespace limen::voxels {
@@ -20,22 +16,12 @@ namespace {
 constexpr GLuint kQueueGroups = 2112, kSoftwareQueueGroups = 32;
 constexpr GLuint kMostGroupsInRow = 65535;
 
-bool castsShadows(const frame::Frame& frame, const Volume& into, const VoxelLamps& lamps) {
-  return into.attributes().lit() && lamps.shadows && !frame.scene().lights.empty();
-}
-
 gl::ShaderDefines voxelizerDefines(const frame::Frame& frame, Coverage coverage, const Volume& into,
                                    const VoxelLamps& lamps) {
   gl::ShaderDefines defines = into.defines();
   defines.merge(into.sumDefines());
+  defines.merge(surfaceDefines(frame, into.attributes(), lamps));
   defineEnum(defines, "COVERAGE", coverage);
-  if (into.attributes().pattern) defines["PATTERN"] = "1";
-  if (into.attributes().lit()) defines["VOXEL_LIT"] = "1";
-  if (castsShadows(frame, into, lamps)) {
-    defines["TRACED"] = "1";
-    if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
-    defines["MOST_PASSAGES"] = std::to_string(frame::kMostPassages);
-  }
   return defines;
 }
 
@@ -51,7 +37,6 @@ Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into,
                      uint32_t queueCapacity)
     : context_(frame.context()),
       lamps_(lamps),
-      traced_(castsShadows(frame, into, lamps)),
       queueCapacity_(queueCapacity),
       alone_(context_.programs().compute("renderer/voxels/voxelize.comp.glsl",
                                          voxelizerDefines(frame, coverage, into, lamps))),
@@ -59,33 +44,23 @@ Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into,
                                           voxelizerDefines(frame, coverage, into, lamps))),
       queue_(queueFor(queueCapacity)) {}
 
-void Voxelizer::run(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree) const {
+void Voxelizer::run(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree) const {
   into.clear();
   add(frame, into, tree);
   into.finish();
 }
 
-void Voxelizer::configure(const gl::Program& program, const frame::Frame& frame, const Volume& into,
+void Voxelizer::configure(const gl::Program& program, frame::Frame& frame, const Volume& into,
                           const ray_tracing::RayTree* tree) const {
   into.configure(program);
   program.set("queueCapacity", queueCapacity_);
   program.set("queueTurn", turn_);
   if (!into.sums()) return;
   into.configureSums(program);
-  if (!into.attributes().lit()) return;
-  static constexpr std::array<const char*, kVoxelLamps> kPositions = {
-      "lampPositions[0]", "lampPositions[1]", "lampPositions[2]", "lampPositions[3]",
-      "lampPositions[4]", "lampPositions[5]", "lampPositions[6]", "lampPositions[7]"};
-  const auto& lights = frame.scene().lights;
-  const size_t count = std::min(lights.size(), lamps_.all ? kPositions.size() : size_t{1});
-  for (size_t i = 0; i < count; ++i)
-    program.set(kPositions[i], glm::vec3(lights[i].centre - frame.gpuScene().anchor()));
-  program.set("lampCount", static_cast<int>(count));
-  program.set("lampStrength", static_cast<float>(lamps_.strength));
-  if (traced_) (tree ? *tree : frame.gpuScene().rays(context_)).bind(program);
+  configureSurfaces(program, frame, into.attributes(), lamps_, tree);
 }
 
-void Voxelizer::add(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree,
+void Voxelizer::add(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree,
                     TriangleSpan span) const {
   const uint32_t end = std::min(frame.gpuScene().triangleCount(), span.end);
   if (span.first >= end) return;

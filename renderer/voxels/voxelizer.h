@@ -6,6 +6,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/ray_tracing/ray_tree.h"
 #include "renderer/voxels/volume.h"
+#include "renderer/voxels/voxel_lamps.h"
 
 namespace limen::voxels {
 
@@ -22,15 +23,6 @@ constexpr EnumNames<Coverage, 3> enumNames(Coverage) {
             {Coverage::Thin, "thin"},
             {Coverage::Conservative, "conservative"}}}};
 }
-
-/// The lamps' light of volumes that hold light. As everywhere in the bench lamps are points in the middle of
-/// the scene's lights, as bright at any distance (frame/light_paths.h). A surface is lit on the side that
-/// faces the lamp.
-struct VoxelLamps {
-  double strength = 0.8;  ///< radiance of a white surface that faces a lamp
-  bool all = false;       ///< all of the scene's lights, kVoxelLamps at most; otherwise the first alone
-  bool shadows = true;    ///< by rays, through transparent surfaces straight on
-};
 
 /// Which of the scene's triangles enter.
 struct TriangleSpan {
@@ -49,9 +41,9 @@ class Voxelizer {
             uint32_t queueCapacity = 65536);
   /// Empties the volume and fills it. Dispatches; nothing waits. Opens no pass. `tree`: that shadows are cast
   /// by; null: the one that the scene keeps, of its triangles at rest.
-  void run(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr) const;
+  void run(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr) const;
   /// Fills without emptying, and without finishing the attributes.
-  void add(const frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr,
+  void add(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr,
            TriangleSpan span = {}) const;
 
   /// Invocations so far whose rays were cut short by a software renderer's limit: not 0, light is wrong.
@@ -60,12 +52,11 @@ class Voxelizer {
   int64_t bytes() const { return queue_.bytes(); }
 
  private:
-  void configure(const gl::Program& program, const frame::Frame& frame, const Volume& into,
+  void configure(const gl::Program& program, frame::Frame& frame, const Volume& into,
                  const ray_tracing::RayTree* tree) const;
 
   gl::Context& context_;
   VoxelLamps lamps_;
-  bool traced_;
   uint32_t queueCapacity_;
   const gl::Program &alone_, &queued_;
   gl::Buffer queue_;

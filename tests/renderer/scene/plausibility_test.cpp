@@ -32,7 +32,8 @@ const std::map<std::string, std::set<std::string>> kClosedParts = {
     {"textured_ground", {"rails", "balls"}},
     {"textured_light", {"sphere", "cone"}},
     {"two_boxes", {"low_box", "high_box"}},
-    {"two_colour_light", {"sphere", "cone"}}};
+    {"two_colour_light", {"sphere", "cone"}},
+    {"voxel_cases", {"frame", "block"}}};
 
 /// Number of closed surfaces around a point: exits minus entries along a direction that meets no edge by
 /// accident.

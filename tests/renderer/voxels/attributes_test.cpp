@@ -6,6 +6,7 @@
 #include "experiments/base/error.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
+#include "tests/renderer/voxels/lit_corner.h"
 #include "tests/renderer/voxels/voxel_oracle.h"
 #include "tests/renderer/voxels/voxelizer_fixture.h"
 
@@ -25,36 +26,6 @@ constexpr VolumeAttributes kAll{.albedo = true,
 
 class VoxelAttributesTest : public VoxelizerFixture {
  protected:
-  static scene::Material material(glm::vec3 albedo, float transmittance = 0.0F, glm::vec3 emission = {}) {
-    scene::Material out;
-    out.albedo = albedo;
-    out.transmittance = glm::vec3(transmittance);
-    out.emission = emission;
-    return out;
-  }
-
-  /// A floor, a wall, a pane of glass that both cross, and a panel that emits; two lamps.
-  static scene::Scene corner() {
-    scene::Scene scene;
-    scene::addPart(scene, scene::card({0.0, -0.5, 0.0}, {1.0, 0.07, 0.03}, {0.04, 0.05, -0.9}),
-                   material({0.8F, 0.7F, 0.6F}));
-    scene::addPart(scene, scene::card({-0.3, 0.1, 0.05}, {0.11, 0.7, 0.02}, {0.05, -0.03, 0.71}),
-                   material({0.8F, 0.1F, 0.2F}));
-    scene::addPart(scene, scene::card({0.2, -0.2, 0.1}, {0.63, 0.2, -0.13}, {-0.1, 0.6, 0.2}),
-                   material({0.1F, 0.6F, 0.3F}, 0.5F));
-    scene::addPart(scene, scene::card({0.7, 0.3, -0.4}, {0.05, 0.2, 0.03}, {0.11, -0.04, 0.22}),
-                   material({0.3F, 0.3F, 0.3F}, 0.0F, {1.0F, 0.25F, 2.0F}));
-    for (const glm::dvec3 at : {glm::dvec3(0.4, 0.9, 0.3), glm::dvec3(-0.7, 0.8, 0.6)}) {
-      scene::AreaLight light;
-      light.centre = at;
-      light.axisX = {1.0, 0.0, 0.0};
-      light.axisY = {0.0, 0.0, 1.0};
-      light.size = {0.1, 0.1};
-      scene.lights.push_back(light);
-    }
-    return scene;
-  }
-
   /// Number of occupied voxels compared.
   static int compareAll(const scene::Scene& scene, Coverage coverage, const VoxelLamps& lamps,
                         uint32_t queueCapacity = 65536) {
@@ -101,17 +72,18 @@ class VoxelAttributesTest : public VoxelizerFixture {
 // Opacity, albedo, normals of both signs, and light of the nearer lamp through glass and past walls.
 TEST_F(VoxelAttributesTest, EachIsTheMeanOverEntriesInDoublePrecision) {
   for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
-    EXPECT_GT(compareAll(corner(), coverage, {}), 400) << toText(coverage);
+    EXPECT_GT(compareAll(litCorner(), coverage, {}), 400) << toText(coverage);
 }
 
 TEST_F(VoxelAttributesTest, LampsAddUp) {
-  EXPECT_GT(compareAll(corner(), Coverage::Thin, {.strength = 0.5, .all = true}), 400);
-  EXPECT_GT(compareAll(corner(), Coverage::Thin, {.all = true, .shadows = false}), 400);
+  EXPECT_GT(compareAll(litCorner(), Coverage::Thin, {.strength = 0.5, .all = true}), 400);
+  EXPECT_GT(compareAll(litCorner(), Coverage::Thin, {.all = true, .shadows = false}), 400);
 }
 
 // Large triangles end in the same sums if the queue holds none of their parts, or some.
 TEST_F(VoxelAttributesTest, AFullQueueChangesNothing) {
-  for (const uint32_t capacity : {0U, 3U}) EXPECT_GT(compareAll(corner(), Coverage::Thin, {}, capacity), 400);
+  for (const uint32_t capacity : {0U, 3U})
+    EXPECT_GT(compareAll(litCorner(), Coverage::Thin, {}, capacity), 400);
 }
 
 // Light, normals and lobes of a slanted surface that faces away from all axes are negative in part, and
@@ -119,7 +91,7 @@ TEST_F(VoxelAttributesTest, AFullQueueChangesNothing) {
 TEST_F(VoxelAttributesTest, NegativeComponentsSurvive) {
   scene::Scene scene;
   scene::addPart(scene, scene::card({0.0, 0.0, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.0, -0.5}),
-                 material(glm::vec3(0.5F), 0.0F, glm::vec3(1.0F)));
+                 plainMaterial(glm::vec3(0.5F), 0.0F, glm::vec3(1.0F)));
   const glm::dvec3 a = scene.mesh.positions[scene.mesh.triangles[0].x];
   const glm::dvec3 normal = glm::normalize(glm::cross(scene.mesh.positions[scene.mesh.triangles[0].y] - a,
                                                       scene.mesh.positions[scene.mesh.triangles[0].z] - a));
@@ -148,8 +120,8 @@ TEST_F(VoxelAttributesTest, NothingIsLeftOfAnEarlierFill) {
   scene::Scene both, second;
   const scene::Mesh low = scene::box({-0.9, -0.9, -0.9}, {-0.3, -0.2, -0.4}),
                     high = scene::box({0.1, 0.2, 0.1}, {0.8, 0.9, 0.7});
-  scene::addPart(both, low, material({0.9F, 0.2F, 0.1F}, 0.0F, {1.0F, 1.0F, 1.0F}));
-  scene::addPart(both, high, material({0.2F, 0.5F, 0.7F}));
+  scene::addPart(both, low, plainMaterial({0.9F, 0.2F, 0.1F}, 0.0F, {1.0F, 1.0F, 1.0F}));
+  scene::addPart(both, high, plainMaterial({0.2F, 0.5F, 0.7F}));
   const VoxelGrid grid = tightGrid(both.bounds(), 16);
   const frame::GpuScene gpuScene(both);
   frame::Frame frame(context(), both, gpuScene, {16, 16});
@@ -171,6 +143,35 @@ TEST_F(VoxelAttributesTest, NothingIsLeftOfAnEarlierFill) {
       EXPECT_EQ(volume.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data,
                 fresh.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data);
   for (const uint32_t sum : volume.sums()->read<uint32_t>()) ASSERT_EQ(sum, 0U);
+}
+
+// What rests in one volume and what moves in another are, joined, what one volume has of all: to the last
+// bit, as sums are whole numbers. Twice, since the second time something has to go.
+TEST_F(VoxelAttributesTest, TwoVolumesJoinAsOne) {
+  const scene::Scene scene = litCorner();
+  const VoxelGrid grid = tightGrid(scene.bounds(), 20);
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {16, 16});
+  const Volume resting(context(), grid, gpuScene.anchor(), kAll),
+      joined(context(), grid, gpuScene.anchor(), kAll), whole(context(), grid, gpuScene.anchor(), kAll);
+  const Voxelizer voxelizer(frame, Coverage::Thin, whole);
+  const TriangleSpan first{.first = 0, .end = scene.parts[2].firstTriangle},
+      second{.first = scene.parts[2].firstTriangle};
+  frame.begin();
+  voxelizer.add(frame, resting, nullptr, first);
+  voxelizer.run(frame, joined);
+  for (int i = 0; i < 2; ++i) {
+    joined.clear();
+    voxelizer.add(frame, joined, nullptr, second);
+    joined.finishWith(resting);
+  }
+  voxelizer.run(frame, whole);
+  frame.end();
+  EXPECT_EQ(joined.readOccupied(), whole.readOccupied());
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    for (int z = 0; z < grid.resolution.z; ++z)
+      EXPECT_EQ(joined.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data,
+                whole.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data);
 }
 
 // 1,024 bits a voxel: eight attachments of four floats (Gaitatzes 2012, section 6.2); half of that in 16

@@ -3,6 +3,7 @@
 // middle lines, shadows by all triangles one after another, lobes by definition. Slow and simple.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -20,6 +21,8 @@ struct OracleVoxel {
   glm::dvec3 albedo{0.0}, normal{0.0}, light{0.0};
   glm::dvec4 grey{0.0};
   std::array<glm::dvec4, 3> colour{};
+  double largestOpacity = 0.0;  // of entries
+  glm::dvec3 largestAlbedo{0.0};
   bool close = false;  // to a decision that floats may take otherwise
 };
 
@@ -42,7 +45,10 @@ class VoxelOracle {
         if (surely) enter(out, i, nearest(corners, glm::dvec3(voxel) + 0.5));
         continue;
       }
-      for (int axis = 0; axis < 3; ++axis) enterAlong(out, i, corners, voxel, axis, slack);
+      const glm::dvec3 size = glm::abs(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      const int facing = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      for (int axis = 0; axis < 3; ++axis)
+        if (coverage == Coverage::Thin || axis == facing) enterAlong(out, i, corners, voxel, axis, slack);
     }
     if (out.entries > 0.0) {
       const double share = 1.0 / out.entries;
@@ -146,6 +152,10 @@ class VoxelOracle {
     out.opacity +=
         1.0 - (material.transmittance.x + material.transmittance.y + material.transmittance.z) / 3.0;
     out.albedo += albedo;
+    out.largestOpacity = std::max(
+        out.largestOpacity,
+        1.0 - (material.transmittance.x + material.transmittance.y + material.transmittance.z) / 3.0);
+    out.largestAlbedo = glm::max(out.largestAlbedo, albedo);
     out.normal += normal;
     leave(out, glm::dvec3(material.emission), normal);
     for (size_t i = 0; i < (lamps_.all ? scene_.lights.size() : 1); ++i) {
