@@ -39,7 +39,9 @@ void addSlicePlanes(Scene& scene) {
 
 void addEqualNormals(Scene& scene) {
   addPart(scene, "octahedron", sphere({0.0, 1.0, 0.0}, 1.0, 1), {0.6F, 0.6F, 0.6F});
-  addPart(scene, "ramp", card({1.4, 0.7, 0.0}, {0.5, 0.5, 0.0}, {0.0, 0.0, -0.8}), {0.8F, 0.3F, 0.1F});
+  // Reaches beyond the other on three sides, so that no plane meets the corners of a tight grid's voxels.
+  addPart(scene, "ramp", card({-1.383, 0.274, 0.0}, {0.487, -0.487, 0.0}, {0.0, 0.0, -1.07}),
+          {0.8F, 0.3F, 0.1F});
 }
 
 void addTwoColours(Scene& scene) {

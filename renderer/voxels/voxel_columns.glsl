@@ -67,8 +67,7 @@ void fillColumn(VoxelTriangle t, uint id, Columns columns, int axis, int index) 
   float place;
   const int voxel = placeMet(t, column, axis, place);
   if (voxel < 0) return;
-  const vec2 middle = vec2(column) + 0.5;
-  fill(voxelOf(column, voxel, axis), axis == 0 ? vec3(place, middle) : axis == 1 ? vec3(middle.y, place, middle.x) : vec3(middle, place), id, t);
+  fill(voxelOf(column, voxel, axis), pointOf(vec2(column) + 0.5, place, axis), id, t);
 #endif
 }
 

@@ -45,6 +45,10 @@ ivec3 voxelOf(ivec2 column, int place, int axis) {
   return axis == 0 ? ivec3(place, column) : axis == 1 ? ivec3(column.y, place, column.x) : ivec3(column, place);
 }
 
+vec3 pointOf(vec2 column, float place, int axis) {
+  return axis == 0 ? vec3(place, column) : axis == 1 ? vec3(column.y, place, column.x) : vec3(column, place);
+}
+
 struct Columns {
   ivec2 first, count;
 };
@@ -73,6 +77,17 @@ float placeAtMiddle(VoxelTriangle t, vec2 middle, int axis) {
   return t.a[axis] - dot(n, middle - across(t.a, axis)) / t.normal[axis];
 }
 
+// Of a triangle thinner than the slack the plane is rounding: whether a place in it lies off the longest edge.
+bool isStray(VoxelTriangle t, vec3 at) {
+  const vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+  const float first = dot(ab, ab), second = dot(bc, bc), third = dot(ca, ca), longest = max(first, max(second, third));
+  if (t.reach * t.reach > kVoxelSlack * kVoxelSlack * longest) return false;
+  const vec3 edge = longest == first ? ab : longest == second ? bc : ca;
+  const vec3 fromStart = at - (longest == first ? t.a : longest == second ? t.b : t.c);
+  const vec3 off = fromStart - clamp(dot(fromStart, edge) / max(longest, 1e-30), 0.0, 1.0) * edge;
+  return dot(off, off) > 9.0 * kVoxelSlack * kVoxelSlack;
+}
+
 // Voxel of a column whose middle line the triangle meets, border included, and where; -1: none.
 int placeMet(VoxelTriangle t, ivec2 column, int axis, out float place) {
   place = 0.0;
@@ -86,6 +101,7 @@ int placeMet(VoxelTriangle t, ivec2 column, int axis, out float place) {
   place = clamp(placeAtMiddle(t, middle, axis), t.low[axis], t.high[axis]);
   const int size = gridSize()[axis];
   if (!(place >= -kVoxelSlack && place <= float(size) + kVoxelSlack)) return -1;
+  if (isStray(t, pointOf(middle, place, axis))) return -1;
   return clamp(int(floor(place)), 0, size - 1);
 }
 
