@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 #include "renderer/voxels/voxel_bindings.h"
@@ -42,7 +43,9 @@ Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into,
                                          voxelizerDefines(frame, coverage, into, lamps))),
       queued_(context_.programs().compute("renderer/voxels/voxelize_queued.comp.glsl",
                                           voxelizerDefines(frame, coverage, into, lamps))),
-      queue_(queueFor(queueCapacity)) {}
+      queue_(queueFor(queueCapacity)) {
+  assert(!into.attributes().any() || into.sums());
+}
 
 void Voxelizer::run(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree) const {
   into.clear();

@@ -9,7 +9,7 @@ const SettingsTable<VoxelStorageSettings>& VoxelStorageSettings::table() {
   using S = VoxelStorageSettings;
   static const SettingsTable<S> kTable = {
       {&S::format, "format", "Floats of the attributes", "Gaitatzes 2012, Table 7"},
-      {&S::budgetMib, "budget_mib", {1, 65536}, "MiB", "Memory that the volume may take"},
+      {&S::budgetMib, "budget_mib", {16, 65536}, "MiB", "Memory that the volume may take"},
       {&S::overBudget, "over_budget",
        "Beyond the budget: refuse to run, or take 16-bit floats if these fit (and refuse if not)"}};
   return kTable;

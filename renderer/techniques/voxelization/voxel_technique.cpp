@@ -5,6 +5,7 @@
 
 #include "renderer/scene/part_motion.h"
 #include "renderer/techniques/voxelization/voxelization_bindings.h"
+#include "renderer/voxels/exact_attributes.h"
 #include "renderer/voxels/exact_voxels.h"
 #include "renderer/voxels/voxel_bindings.h"
 
@@ -79,6 +80,12 @@ std::vector<Counter> VoxelTechnique::count(frame::Frame& frame) {
                                    {"hole_voxels", double(holes)},
                                    {"volume_mib", double(volume_->bytes()) / 1048576.0},
                                    {"voxel_bits", double(volume_->attributes().bitsPerVoxel())}};
+  if (volume_->attributes().albedo && volume_->attributes().normal) {
+    const voxels::AttributeError error =
+        voxels::compare(*volume_, voxels::exactAttributes(frame.scene(), mesh, grid));
+    counters.push_back({"albedo_rms", error.albedo});
+    counters.push_back({"normal_rms_deg", error.normalDeg});
+  }
   const std::vector<Counter> own = countForm();
   counters.insert(counters.end(), own.begin(), own.end());
   return counters;
@@ -95,7 +102,11 @@ std::vector<Quantity> VoxelTechnique::quantities() {
           {"volume_mib", "Memory of the volume, with the sums that means are made of", "MiB",
            Direction::LowerIsBetter, table},
           {"voxel_bits", "Bits of a voxel's attributes", "", Direction::Neither,
-           "Gaitatzes 2012, section 6.2 (1,024)"}};
+           "Gaitatzes 2012, section 6.2 (1,024)"},
+          {"albedo_rms", "Error of voxels' albedos, of the means over their surfaces", "",
+           Direction::LowerIsBetter},
+          {"normal_rms_deg", "Angle between voxels' normals and the means over their surfaces", "deg",
+           Direction::LowerIsBetter}};
 }
 
 }  // namespace limen::techniques

@@ -6,6 +6,7 @@
 #include "experiments/base/error.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
+#include "renderer/voxels/exact_attributes.h"
 #include "tests/renderer/voxels/lit_corner.h"
 #include "tests/renderer/voxels/voxel_oracle.h"
 #include "tests/renderer/voxels/voxelizer_fixture.h"
@@ -112,6 +113,28 @@ TEST_F(VoxelAttributesTest, NegativeComponentsSurvive) {
         }
       }
     EXPECT_GT(found, 4);
+  });
+}
+
+// A voxel that one plane alone passes has that plane's normal and colour; the edge between two of them has a
+// mean that depends on what counts, within the angle between both.
+TEST_F(VoxelAttributesTest, ASurfaceAloneHasItsOwnNormalAndAlbedo) {
+  scene::Scene scene;
+  scene::addPart(scene, scene::card({0.0, 0.0, 0.0}, {0.5, 0.11, 0.2}, {0.13, -0.6, 0.07}),
+                 plainMaterial({0.8F, 0.3F, 0.6F}));
+  voxelize(scene, tightGrid(scene.bounds(), 24), Coverage::Thin, kAll, [&](const Volume& volume) {
+    const AttributeError error = compare(volume, exactAttributes(scene, scene.mesh, volume.grid()));
+    EXPECT_GT(error.normals, 200);
+    EXPECT_LT(error.albedo, 1e-5);
+    EXPECT_LT(error.normalDeg, 1e-2);
+  });
+  const scene::Scene corner = litCorner();
+  voxelize(corner, tightGrid(corner.bounds(), 24), Coverage::Thin, kAll, [&](const Volume& volume) {
+    const AttributeError error = compare(volume, exactAttributes(corner, corner.mesh, volume.grid()));
+    EXPECT_GT(error.normals, 400);
+    EXPECT_GT(error.normalDeg, 0.5);
+    EXPECT_LT(error.normalDeg, 15.0);
+    EXPECT_LT(error.albedo, 0.1);
   });
 }
 
