@@ -26,9 +26,17 @@ class AxisVolumesTest : public voxels::VoxelizerFixture {
             .lamps = lamps};
   }
 
+  static AxisVolumes::Form slicePasses(FragmentBlend blend, const voxels::VoxelLamps& lamps) {
+    const std::string folder = "renderer/techniques/voxelization/";
+    AxisVolumes::Form form = pixelClip(blend, lamps);
+    form.stages = {folder + "slice_pass.vert.glsl", folder + "slice_pass.frag.glsl"};
+    form.passPerSlice = true;
+    return form;
+  }
+
   template <class With>
-  static void fill(const scene::Scene& scene, const voxels::VoxelGrid& grid, FragmentBlend blend,
-                   const voxels::VoxelLamps& lamps, With with) {
+  static void fill(const scene::Scene& scene, const voxels::VoxelGrid& grid, const AxisVolumes::Form& form,
+                   With with) {
     const voxels::VolumeAttributes attributes{.albedo = true,
                                               .normal = true,
                                               .format = gl::Format::RGBA32F,
@@ -41,7 +49,7 @@ class AxisVolumesTest : public voxels::VoxelizerFixture {
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {16, 16});
     const voxels::Volume volume(context(), grid, gpuScene.anchor(), attributes);
-    AxisVolumes volumes(frame, volume, pixelClip(blend, lamps));
+    AxisVolumes volumes(frame, volume, form);
     frame.begin();
     volumes.fill(frame, volume);
     frame.end();
@@ -63,32 +71,38 @@ TEST_F(AxisVolumesTest, EachAttachmentHasItsOwnBlending) {
   const voxels::VoxelGrid grid = voxels::tightGrid(scene.bounds(), 20);
   const voxels::VoxelLamps lamps{.strength = 0.5, .all = true};
   const voxels::VoxelOracle oracle(scene, grid, lamps);
-  fill(scene, grid, FragmentBlend::Separate, lamps, [&](const auto& layers) {
-    int compared = 0, several = 0;
-    for (int z = 0; z < grid.resolution.z; ++z)
-      for (int y = 0; y < grid.resolution.y; ++y)
-        for (int x = 0; x < grid.resolution.x; ++x) {
-          const voxels::OracleVoxel expected = oracle.at({x, y, z}, voxels::Coverage::Dominant, kRasterSlack);
-          if (expected.close) continue;
-          const double one = expected.entries > 0.0 ? 1.0 : 0.0;
-          compared += expected.entries > 0.0;
-          several += expected.entries > 1.0;
-          const glm::dvec4 values[voxels::kVoxelAttributes] = {{expected.largestOpacity, one, 0.0, 0.0},
-                                                               glm::dvec4(expected.largestAlbedo, one),
-                                                               glm::dvec4(expected.normal, one),
-                                                               glm::dvec4(expected.light, one),
-                                                               expected.grey,
-                                                               expected.colour[0],
-                                                               expected.colour[1],
-                                                               expected.colour[2]};
-          for (size_t i = 0; i < voxels::kVoxelAttributes; ++i)
-            for (int c = 0; c < 4; ++c)
-              ASSERT_NEAR(layers[static_cast<size_t>(z)][i].at(x, y, c), values[i][c], i < 3 ? 1e-5 : 2e-3)
-                  << i << " " << c << " at " << x << " " << y << " " << z;
-        }
-    EXPECT_GT(compared, 300);
-    EXPECT_GT(several, 3);
-  });
+  struct Case {
+    AxisVolumes::Form form;
+    voxels::Coverage coverage;  // axes along which it draws a triangle
+  };
+  for (const Case& one : {Case{pixelClip(FragmentBlend::Separate, lamps), voxels::Coverage::Dominant},
+                          Case{slicePasses(FragmentBlend::Separate, lamps), voxels::Coverage::Thin}})
+    fill(scene, grid, one.form, [&](const auto& layers) {
+      int compared = 0, several = 0;
+      for (int z = 0; z < grid.resolution.z; ++z)
+        for (int y = 0; y < grid.resolution.y; ++y)
+          for (int x = 0; x < grid.resolution.x; ++x) {
+            const voxels::OracleVoxel expected = oracle.at({x, y, z}, one.coverage, kRasterSlack);
+            if (expected.close) continue;
+            const double full = expected.entries > 0.0 ? 1.0 : 0.0;
+            compared += expected.entries > 0.0;
+            several += expected.entries > 1.0;
+            const glm::dvec4 values[voxels::kVoxelAttributes] = {{expected.largestOpacity, full, 0.0, 0.0},
+                                                                 glm::dvec4(expected.largestAlbedo, full),
+                                                                 glm::dvec4(expected.normal, full),
+                                                                 glm::dvec4(expected.light, full),
+                                                                 expected.grey,
+                                                                 expected.colour[0],
+                                                                 expected.colour[1],
+                                                                 expected.colour[2]};
+            for (size_t i = 0; i < voxels::kVoxelAttributes; ++i)
+              for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(layers[static_cast<size_t>(z)][i].at(x, y, c), values[i][c], i < 3 ? 1e-5 : 2e-3)
+                    << i << " " << c << " at " << x << " " << y << " " << z;
+          }
+      EXPECT_GT(compared, 300);
+      EXPECT_GT(several, 3);
+    });
 }
 
 // With one blend equation for all, what is negative survives by its scale; of surfaces that meet the largest
@@ -103,7 +117,7 @@ TEST_F(AxisVolumesTest, AMaximumKeepsNegativeComponents) {
   const glm::dvec3 normal =
       glm::normalize(glm::cross(scene.mesh.positions[corners.y] - a, scene.mesh.positions[corners.z] - a));
   EXPECT_LT(std::min({normal.x, normal.y, normal.z}), -0.1);
-  fill(scene, grid, FragmentBlend::Maximum, {}, [&](const auto& layers) {
+  fill(scene, grid, pixelClip(FragmentBlend::Maximum, {}), [&](const auto& layers) {
     int found = 0;
     for (const auto& layer : layers)
       for (int y = 0; y < grid.resolution.y; ++y)
