@@ -3,64 +3,185 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "experiments/base/error.h"
 #include "renderer/voxels/voxel_bindings.h"
 
 namespace limen::voxels {
+namespace {
+
+struct AttachmentPlace {
+  const char* define;
+  const char* sum;
+  uint32_t unit, image;
+};
+/// In the order of VoxelAttribute.
+constexpr AttachmentPlace kPlaces[kVoxelAttributes] = {
+    {"VOLUME_OCCUPANCY", nullptr, kVolumeOccupancyUnit, kVolumeOccupancyImage},
+    {"VOLUME_ALBEDO", "SUM_ALBEDO", kVolumeAlbedoUnit, kVolumeAlbedoImage},
+    {"VOLUME_NORMAL", "SUM_NORMAL", kVolumeNormalUnit, kVolumeNormalImage},
+    {"VOLUME_LIGHT", "SUM_LIGHT", kVolumeLightUnit, kVolumeLightImage},
+    {"VOLUME_SH_GREY", "SUM_SH_GREY", kVolumeShGreyUnit, kVolumeShGreyImage},
+    {"VOLUME_SH_RED", "SUM_SH_RED", kVolumeShRedUnit, kVolumeShRedImage},
+    {"VOLUME_SH_GREEN", "SUM_SH_GREEN", kVolumeShGreenUnit, kVolumeShGreenImage},
+    {"VOLUME_SH_BLUE", "SUM_SH_BLUE", kVolumeShBlueUnit, kVolumeShBlueImage}};
+
+int64_t bytesOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
+  const int64_t bits = int64_t{(grid.resolution.x + 31) / 32} * grid.resolution.y * grid.resolution.z * 4;
+  const int64_t sums =
+      attributes.any() && attributes.summed ? grid.count() * SumLayout(attributes).words * 4 : 0;
+  return bits + sums + grid.count() * attributes.bitsPerVoxel() / 8;
+}
+
+std::string mebibytes(int64_t bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
+
+/// The attributes in a format within their budget.
+VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
+  assert(attributes.format == gl::Format::RGBA16F || attributes.format == gl::Format::RGBA32F);
+  if (bytesOf(grid, attributes) > attributes.budgetBytes && attributes.mayHalve)
+    attributes.format = gl::Format::RGBA16F;
+  const int64_t bytes = bytesOf(grid, attributes);
+  const std::string what = "a volume of " + std::to_string(grid.resolution.x) + " x " +
+                           std::to_string(grid.resolution.y) + " x " + std::to_string(grid.resolution.z) +
+                           " voxels with " + std::to_string(attributes.count()) + " attributes";
+  if (bytes > attributes.budgetBytes)
+    throw Error(what + " takes " + mebibytes(bytes) + ", more than its budget of " +
+                    mebibytes(attributes.budgetBytes),
+                {}, "choose a lower resolution, fewer attributes or 16-bit floats, or raise the budget");
+  if (attributes.any() && attributes.summed) {
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    const int64_t sums = grid.count() * SumLayout(attributes).words * 4;
+    if (sums > most)
+      throw Error(what + " needs sums of " + mebibytes(sums) + "; this device's shaders reach " +
+                      mebibytes(most) + " of a buffer",
+                  {}, "choose a lower resolution or fewer attributes");
+  }
+  return attributes;
+}
+
+}  // namespace
 
 Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
                const VolumeAttributes& attributes)
     : grid_(grid),
       anchor_(anchor),
-      attributes_(attributes),
-      bits_(gl::Format::R32UI, {(grid.resolution.x + 31) / 32, grid.resolution.y}, 1, grid.resolution.z) {
+      attributes_(fitting(grid, attributes)),
+      bits_(gl::Format::R32UI, {(grid.resolution.x + 31) / 32, grid.resolution.y}, 1, grid.resolution.z),
+      empty_(&context.programs().compute("renderer/voxels/empty_bits.comp.glsl")),
+      unite_(&context.programs().compute("renderer/voxels/empty_bits.comp.glsl", {{"UNITE", "1"}})) {
   const glm::ivec3 size = grid.resolution;
-  if (attributes.albedo) albedo_.emplace(attributes.format, glm::ivec2(size), 1, size.z);
-  if (attributes.normal) normal_.emplace(attributes.format, glm::ivec2(size), 1, size.z);
-  if (attributes.any()) {
-    sums_.emplace(grid.count() * int64_t{kVoxelSums} * 4, nullptr);
-    gl::ShaderDefines defines = this->defines();
-    defines["VOLUME_FORMAT"] = attributes.format == gl::Format::RGBA32F ? "rgba32f" : "rgba16f";
-    finish_ = &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", defines);
+  for (const auto& [attribute, name] : enumNames(VoxelAttribute{}).entries) {
+    if (!attributes_.has(attribute)) continue;
+    auto& attachment = attachments_[static_cast<size_t>(attribute)];
+    attachment.emplace(attributes_.format, glm::ivec2(size), 1, size.z);
+    attachment->clear(glm::vec4(0.0F));
   }
-  clear();
-  finish();
+  bits_.clearUint(glm::uvec4(0));
+  if (!attributes_.any()) return;
+  gl::ShaderDefines own = defines();
+  own.merge(sumDefines());
+  const auto program = [&](const char* define) {
+    gl::ShaderDefines with = own;
+    if (define) with[define] = "1";
+    return &context.programs().compute("renderer/voxels/finish_volume.comp.glsl", with);
+  };
+  erase_ = program("ERASE");
+  if (!attributes_.summed) return;
+  sums_.emplace(grid.count() * SumLayout(attributes_).words * 4, nullptr);
+  sums_->clearUint(0);
+  finish_ = program(nullptr);
+  finishWith_ = program("BASE");
 }
 
-int64_t Volume::bytes() const {
-  return bits_.bytes() + (albedo_ ? albedo_->bytes() : 0) + (normal_ ? normal_->bytes() : 0) +
-         (sums_ ? sums_->bytes() : 0);
+int64_t Volume::bytes() const { return bytesOf(grid_, attributes_); }
+
+void Volume::bindAttachments() const {
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    if (attachments_[i]) attachments_[i]->bindImage(kPlaces[i].image, gl::Access::Write);
+}
+
+void Volume::dispatchWords(const gl::Program& program) const {
+  configure(program);
+  program.use();
+  const int64_t words = int64_t{bits_.sizePx().x} * bits_.sizePx().y * grid_.resolution.z;
+  const auto groups = static_cast<GLuint>((words + kVolumeWords - 1) / kVolumeWords);
+  const GLuint rows = (groups + 65534) / 65535;
+  glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void Volume::clear() const {
-  bits_.clearUint(glm::uvec4(0));
-  if (sums_) sums_->clearUint(0);
+  if (erase_) {
+    bindAttachments();
+    dispatchWords(*erase_);
+  }
+  bits_.bindImage(kVolumeEmptyBitsImage, gl::Access::Write);
+  dispatchWords(*empty_);
 }
 
 void Volume::finish() const {
   if (!finish_) return;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   sums_->bindStorage(kVoxelSumsBuffer);
-  if (albedo_) albedo_->bindImage(kVolumeAlbedoImage, gl::Access::Write);
-  if (normal_) normal_->bindImage(kVolumeNormalImage, gl::Access::Write);
-  configure(*finish_);
-  finish_->use();
-  const glm::ivec3 groups = (grid_.resolution + glm::ivec3(7, 7, 0)) / glm::ivec3(8, 8, 1);
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  bindAttachments();
+  configureSums(*finish_);
+  dispatchWords(*finish_);
 }
+
+void Volume::finishWith(const Volume& base) const {
+  assert(base.grid_.resolution == grid_.resolution && base.attributes_.count() == attributes_.count());
+  base.bits_.bindTexture(kVolumeBaseBitsUnit);
+  bits_.bindImage(kVolumeEmptyBitsImage, gl::Access::Write);
+  dispatchWords(*unite_);
+  if (!finishWith_) return;
+  sums_->bindStorage(kVoxelSumsBuffer);
+  base.sums_->bindStorage(kVolumeBaseSumsBuffer);
+  bindAttachments();
+  configureSums(*finishWith_);
+  dispatchWords(*finishWith_);
+}
+
+double Volume::sumSteps() const {
+  const double most = 2147483647.0 / static_cast<double>(std::max<int64_t>(attributes_.mostEntries, 1));
+  return std::min(std::exp2(std::floor(std::log2(most))), 1048576.0);
+}
+
+// A lobe's largest coefficient is sqrt(pi / 3) = 1.0233 times its radiance.
+double Volume::lightSteps() const { return sumSteps() / (1.0234 * attributes_.largestLight); }
 
 gl::ShaderDefines Volume::defines() const {
   gl::ShaderDefines defines;
-  if (albedo_) defines["VOLUME_ALBEDO"] = "1";
-  if (normal_) defines["VOLUME_NORMAL"] = "1";
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    if (attachments_[i]) defines[kPlaces[i].define] = "1";
   return defines;
+}
+
+gl::ShaderDefines Volume::sumDefines() const {
+  gl::ShaderDefines defines;
+  if (!attributes_.any()) return defines;
+  const SumLayout layout(attributes_);
+  defines["SUMS"] = std::to_string(layout.words) + "u";
+  if (layout.opacity >= 0) defines["SUM_OPACITY"] = std::to_string(layout.opacity) + "u";
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    if (layout.first[i] >= 0) defines[kPlaces[i].sum] = std::to_string(layout.first[i]) + "u";
+  defines["VOLUME_FORMAT"] = attributes_.format == gl::Format::RGBA32F ? "rgba32f" : "rgba16f";
+  return defines;
+}
+
+void Volume::configureSums(const gl::Program& program) const {
+  program.set("sumSteps", static_cast<float>(sumSteps()));
+  program.set("lightSteps", static_cast<float>(lightSteps()));
 }
 
 void Volume::configure(const gl::Program& program) const {
   bits_.bindTexture(kVolumeBitsUnit);
-  if (albedo_) albedo_->bindTexture(kVolumeAlbedoUnit);
-  if (normal_) normal_->bindTexture(kVolumeNormalUnit);
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    if (attachments_[i]) attachments_[i]->bindTexture(kPlaces[i].unit);
   program.set("gridOrigin", glm::vec3(grid_.origin - anchor_));
   program.set("voxelSize", static_cast<float>(grid_.voxelSize));
   program.set("gridSizeX", grid_.resolution.x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -9,48 +10,56 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
+#include "renderer/voxels/volume_attributes.h"
 #include "renderer/voxels/voxel_grid.h"
 
 namespace limen::voxels {
-
-/// What voxels hold besides whether a surface meets them.
-struct VolumeAttributes {
-  bool albedo = false;  ///< mean linear reflectance of the surfaces
-  bool normal = false;  ///< mean unit normal of the triangles, by the order of their vertices; and opacity
-  gl::Format format = gl::Format::RGBA16F;  ///< RGBA16F or RGBA32F
-  bool any() const { return albedo || normal; }
-};
 
 /// Voxels in GPU memory: array textures, x and y in texels and z in layers. What fills it says which
 /// surfaces count in a voxel, and how often.
 class Volume {
  public:
   /// `anchor`: of the scene (frame::GpuScene::anchor()), which positions on the GPU are relative to. Throws
-  /// Error if the device cannot hold it.
+  /// Error if it exceeds its budget or the device cannot hold it.
   Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
          const VolumeAttributes& attributes = {});
 
   const VoxelGrid& grid() const { return grid_; }
+  /// With the format that the volume has got.
   const VolumeAttributes& attributes() const { return attributes_; }
   /// R32UI, a bit a voxel: bit x % 32 of texel (x / 32, y) of layer z. Bits beyond the grid are 0.
   const gl::Texture& bits() const { return bits_; }
-  /// rgb: mean albedo; a: 1. Empty voxels: 0. Only if asked for.
-  const gl::Texture& albedo() const { return *albedo_; }
-  /// xyz: mean normal, not of unit length; a: mean opacity, 1 minus the mean of the channels of
-  /// Material::transmittance. Empty voxels: 0. Only if asked for.
-  const gl::Texture& normal() const { return *normal_; }
+  /// One of attributes(), as VoxelAttribute states.
+  const gl::Texture& attachment(VoxelAttribute attribute) const {
+    return *attachments_[static_cast<size_t>(attribute)];
+  }
+  const gl::Texture& albedo() const { return attachment(VoxelAttribute::Albedo); }
+  const gl::Texture& normal() const { return attachment(VoxelAttribute::Normal); }
   int64_t bytes() const;
 
-  /// Empties it, to be filled by shaders that write to bits() and sums().
+  /// Empties it, to be filled by shaders that write to bits() and sums(). Attachments are emptied where
+  /// bits() says that voxels are occupied.
   void clear() const;
-  /// For sums of attributes (voxel_bindings.h); null without attributes.
+  /// For sums of attributes (SumLayout); null without these, or if not asked for. All 0 after finish().
   const gl::Buffer* sums() const { return sums_ ? &*sums_ : nullptr; }
-  /// Divides the sums of attributes.
+  /// Attachments from the sums, in occupied voxels alone.
   void finish() const;
+  /// The same, of this volume and of `base`, which has the same grid and attributes and keeps its sums: the
+  /// union of both, as if all had entered one volume. The bits become the union's.
+  void finishWith(const Volume& base) const;
 
   /// Uniforms and textures of volume.glsl, in a program that is compiled with defines().
   void configure(const gl::Program& program) const;
   gl::ShaderDefines defines() const;
+  /// For programs that write to sums(): defines besides those above, and the fixed-point steps.
+  gl::ShaderDefines sumDefines() const;
+  void configureSums(const gl::Program& program) const;
+  /// Steps of a sum to 1, and to a radiance of 1.
+  double sumSteps() const;
+  double lightSteps() const;
+
+  /// Runs a program that includes volume_words.glsl and is compiled with defines().
+  void dispatchWords(const gl::Program& program) const;
 
   /// One byte a voxel, in the order of VoxelGrid::indexOf(): 1 if occupied. Waits for the GPU.
   std::vector<uint8_t> readOccupied() const;
@@ -58,13 +67,15 @@ class Volume {
   void writeOccupied(const std::vector<uint8_t>& occupied) const;
 
  private:
+  void bindAttachments() const;
+
   VoxelGrid grid_;
   glm::dvec3 anchor_;
   VolumeAttributes attributes_;
   gl::Texture bits_;
-  std::optional<gl::Texture> albedo_, normal_;
+  std::array<std::optional<gl::Texture>, kVoxelAttributes> attachments_;
   std::optional<gl::Buffer> sums_;
-  const gl::Program* finish_ = nullptr;
+  const gl::Program *empty_, *unite_, *erase_ = nullptr, *finish_ = nullptr, *finishWith_ = nullptr;
 };
 
 }  // namespace limen::voxels

@@ -10,12 +10,11 @@ struct VoxelTriangle {
   float reach;     // largest of the normal's components, by size
 };
 
-// False: outside the grid, or not finite.
-bool loadTriangle(uint id, out VoxelTriangle t) {
-  const uvec3 vertices = sceneTriangle(id);
-  t.a = toVoxels(scenePosition(vertices.x));
-  t.b = toVoxels(scenePosition(vertices.y));
-  t.c = toVoxels(scenePosition(vertices.z));
+// From its vertices, in voxels. False: outside the grid, or not finite.
+bool setUp(out VoxelTriangle t, vec3 a, vec3 b, vec3 c) {
+  t.a = a;
+  t.b = b;
+  t.c = c;
   t.low = min(t.a, min(t.b, t.c));
   t.high = max(t.a, max(t.b, t.c));
   t.normal = cross(t.b - t.a, t.c - t.a);
@@ -24,6 +23,11 @@ bool loadTriangle(uint id, out VoxelTriangle t) {
   const vec3 sum = t.a + t.b + t.c;
   if (any(isnan(sum)) || any(isinf(sum)) || isinf(t.reach)) return false;
   return all(lessThanEqual(t.low, vec3(gridSize()) + kVoxelSlack)) && all(greaterThanEqual(t.high, vec3(-kVoxelSlack)));
+}
+
+bool loadTriangle(uint id, out VoxelTriangle t) {
+  const uvec3 vertices = sceneTriangle(id);
+  return setUp(t, toVoxels(scenePosition(vertices.x)), toVoxels(scenePosition(vertices.y)), toVoxels(scenePosition(vertices.z)));
 }
 
 int longestAxis(vec3 v) {
@@ -39,6 +43,10 @@ ivec2 across(ivec3 v, int axis) { return axis == 0 ? v.yz : axis == 1 ? v.zx : v
 // Voxel from its column and its place along it.
 ivec3 voxelOf(ivec2 column, int place, int axis) {
   return axis == 0 ? ivec3(place, column) : axis == 1 ? ivec3(column.y, place, column.x) : ivec3(column, place);
+}
+
+vec3 pointOf(vec2 column, float place, int axis) {
+  return axis == 0 ? vec3(place, column) : axis == 1 ? vec3(column.y, place, column.x) : vec3(column, place);
 }
 
 struct Columns {
@@ -69,8 +77,20 @@ float placeAtMiddle(VoxelTriangle t, vec2 middle, int axis) {
   return t.a[axis] - dot(n, middle - across(t.a, axis)) / t.normal[axis];
 }
 
-// Voxel of a column whose middle line the triangle meets, border included; -1: none.
-int placeMet(VoxelTriangle t, ivec2 column, int axis) {
+// Of a triangle thinner than the slack the plane is rounding: whether a place in it lies off the longest edge.
+bool isStray(VoxelTriangle t, vec3 at) {
+  const vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+  const float first = dot(ab, ab), second = dot(bc, bc), third = dot(ca, ca), longest = max(first, max(second, third));
+  if (t.reach * t.reach > kVoxelSlack * kVoxelSlack * longest) return false;
+  const vec3 edge = longest == first ? ab : longest == second ? bc : ca;
+  const vec3 fromStart = at - (longest == first ? t.a : longest == second ? t.b : t.c);
+  const vec3 off = fromStart - clamp(dot(fromStart, edge) / max(longest, 1e-30), 0.0, 1.0) * edge;
+  return dot(off, off) > 9.0 * kVoxelSlack * kVoxelSlack;
+}
+
+// Voxel of a column whose middle line the triangle meets, border included, and where; -1: none.
+int placeMet(VoxelTriangle t, ivec2 column, int axis, out float place) {
+  place = 0.0;
   const float along = t.normal[axis];
   if (along == 0.0) return -1;
   const vec2 middle = vec2(column) + 0.5, a = across(t.a, axis), b = across(t.b, axis), c = across(t.c, axis);
@@ -78,9 +98,10 @@ int placeMet(VoxelTriangle t, ivec2 column, int axis) {
   const float side = along < 0.0 ? -1.0 : 1.0, slack = kVoxelSlack * abs(along) / t.reach;
   if (isBeside(middle, a, b, side, slack) || isBeside(middle, b, c, side, slack) || isBeside(middle, c, a, side, slack))
     return -1;
-  const float place = clamp(placeAtMiddle(t, middle, axis), t.low[axis], t.high[axis]);
+  place = clamp(placeAtMiddle(t, middle, axis), t.low[axis], t.high[axis]);
   const int size = gridSize()[axis];
   if (!(place >= -kVoxelSlack && place <= float(size) + kVoxelSlack)) return -1;
+  if (isStray(t, pointOf(middle, place, axis))) return -1;
   return clamp(int(floor(place)), 0, size - 1);
 }
 
@@ -124,4 +145,25 @@ bool meetsVoxel(VoxelTriangle t, ivec3 voxel) {
   const float reach = half_ * (size.x + size.y + size.z);
   if (min(at.x, min(at.y, at.z)) > reach || max(at.x, max(at.y, at.z)) < -reach) return false;
   return !isApartAcross(b - a, a, c, half_) && !isApartAcross(c - b, b, a, half_) && !isApartAcross(a - c, c, b, half_);
+}
+
+// Point of the triangle nearest to p (Ericson 2005, section 5.1.5); of one without area, some point of it near p.
+vec3 nearestTo(VoxelTriangle t, vec3 p) {
+  const float least = 1e-30;
+  const vec3 ab = t.b - t.a, ac = t.c - t.a;
+  const float d1 = dot(ab, p - t.a), d2 = dot(ac, p - t.a);
+  if (d1 <= 0.0 && d2 <= 0.0) return t.a;
+  const float d3 = dot(ab, p - t.b), d4 = dot(ac, p - t.b);
+  if (d3 >= 0.0 && d4 <= d3) return t.b;
+  const float beyondAb = d1 * d4 - d3 * d2;
+  if (beyondAb <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return t.a + ab * (d1 / max(d1 - d3, least));
+  const float d5 = dot(ab, p - t.c), d6 = dot(ac, p - t.c);
+  if (d6 >= 0.0 && d5 <= d6) return t.c;
+  const float beyondAc = d5 * d2 - d1 * d6;
+  if (beyondAc <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return t.a + ac * (d2 / max(d2 - d6, least));
+  const float beyondBc = d3 * d6 - d5 * d4, alongBc = d4 - d3, leftBc = d5 - d6;
+  if (beyondBc <= 0.0 && alongBc >= 0.0 && leftBc >= 0.0) return t.b + (t.c - t.b) * (alongBc / max(alongBc + leftBc, least));
+  const float sum = max(beyondBc + beyondAc + beyondAb, least);
+  const float v = clamp(beyondAc / sum, 0.0, 1.0), w = clamp(beyondAb / sum, 0.0, 1.0 - v);
+  return t.a + v * ab + w * ac;
 }

@@ -1,30 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All triangles into one volume in one dispatch (VX-04, VX-12 to VX-14). Source: Gaitatzes 2012, chapter 6;
-// the single pass without geometry shader, temporary volumes and merge is the bench's own.
+// All triangles into one volume by compute (VX-01, VX-03, VX-04, VX-09, VX-11 to VX-13). Source: Gaitatzes
+// 2012, chapter 6; the single pass without geometry shader, temporary volumes and merge is the bench's own,
+// as are means of attributes in fixed point in place of blending.
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "experiments/base/error.h"
+#include "renderer/ray_tracing/rebuilt_tree.h"
+#include "renderer/techniques/voxelization/voxel_attribute_settings.h"
 #include "renderer/techniques/voxelization/voxel_technique.h"
 #include "renderer/voxels/voxelizer.h"
 
 namespace limen::techniques {
 namespace {
 
-/// Floats of a voxel's attributes.
-enum class VoxelFormat { Half, Full };
-constexpr EnumNames<VoxelFormat, 2> enumNames(VoxelFormat) {
-  return {{{{VoxelFormat::Half, "16f"}, {VoxelFormat::Full, "32f"}}}};
-}
+constexpr const char* kImageStorePass = "voxelization/image_store";
 
 struct ImageStoreSettings {
   VoxelGridSettings grid;
   voxels::Coverage coverage = voxels::Coverage::Thin;
-  bool attributes = false;
-  VoxelFormat format = VoxelFormat::Half;
+  VoxelAttributeSetting attributes;
+  bool split = false;
+  void check() const {
+    const auto* lit = std::get_if<LitVoxelAttributes>(&attributes);
+    if (split && lit && lit->shadows)
+      throw Error("a part that moves changes the light of those that rest", "split",
+                  "choose attributes without light, or shadows: false, or split: false");
+  }
   static const SettingsTable<ImageStoreSettings>& table() {
     using S = ImageStoreSettings;
     static const SettingsTable<S> kTable = {
         included(&S::grid),
         {&S::coverage, "coverage", "Which voxels a triangle fills"},
-        {&S::attributes, "attributes", "Albedo, normal and opacity of each voxel besides occupancy"},
-        {&S::format, "format", "Floats of the attributes", "Gaitatzes 2012, Table 7"}};
+        voxelAttributesBinding(&S::attributes),
+        {&S::split, "split", "Parts that rest in a volume of their own, filled once",
+         "Gaitatzes 2012, section 6.4"}};
     return kTable;
   }
 };
@@ -33,33 +46,85 @@ class ImageStore : public VoxelTechnique {
  public:
   using Settings = ImageStoreSettings;
   explicit ImageStore(const ImageStoreSettings& settings)
-      : VoxelTechnique(settings.grid, "voxelization/image_store"), settings_(settings) {}
+      : VoxelTechnique(settings.grid, kImageStorePass), settings_(settings) {}
 
  protected:
-  voxels::VolumeAttributes attributes() const override {
-    return {.albedo = settings_.attributes,
-            .normal = settings_.attributes,
-            .format = settings_.format == VoxelFormat::Full ? gl::Format::RGBA32F : gl::Format::RGBA16F};
-  }
+  voxels::VolumeAttributes attributes() const override { return volumeAttributes(settings_.attributes); }
   int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) override {
-    voxelizer_.emplace(frame.context(), settings_.coverage, volume);
-    return 0;
+    voxels::VoxelLamps lamps;
+    if (const auto* lit = std::get_if<LitVoxelAttributes>(&settings_.attributes)) lamps = lit->lamps();
+    voxelizer_.emplace(frame, settings_.coverage, volume, lamps);
+    // The scene's own tree is of its triangles at rest.
+    const bool traced = volume.attributes().lit() && lamps.shadows && !frame.scene().lights.empty();
+    if (traced && !frame.scene().motions.empty())
+      tree_.emplace(frame.context(), frame.gpuScene().triangleCount());
+    else if (traced)
+      frame.gpuScene().rays(frame.context());
+    if (settings_.split) prepareSplit(frame, volume);
+    return voxelizer_->bytes() + (tree_ ? tree_->bytes() : 0) + (resting_ ? resting_->bytes() : 0);
   }
-  void fill(frame::Frame& frame, const voxels::Volume& volume) override { voxelizer_->run(frame, volume); }
+  void beforeFill(frame::Frame& frame) override {
+    if (tree_) tree_->build(frame.passes(), frame.positions(), frame.gpuScene().indices());
+  }
+  void fill(frame::Frame& frame, const voxels::Volume& volume) override {
+    const ray_tracing::RayTree* tree = tree_ ? &*tree_ : nullptr;
+    if (!resting_) {
+      voxelizer_->run(frame, volume, tree);
+      return;
+    }
+    if (restingFills_ == 0) {
+      for (const voxels::TriangleSpan span : restingSpans_) voxelizer_->add(frame, *resting_, tree, span);
+      ++restingFills_;
+    }
+    volume.clear();
+    for (const voxels::TriangleSpan span : movingSpans_) voxelizer_->add(frame, volume, tree, span);
+    volume.finishWith(*resting_);
+  }
+  std::vector<Counter> countForm() const override {
+    return {{"rays_cut_short", double(voxelizer_->cutShort())}, {"resting_fills", double(restingFills_)}};
+  }
 
  private:
+  void prepareSplit(frame::Frame& frame, const voxels::Volume& volume) {
+    const scene::Scene& scene = frame.scene();
+    resting_.emplace(frame.context(), volume.grid(), frame.gpuScene().anchor(), volume.attributes());
+    for (uint32_t part = 0; part < scene.parts.size(); ++part) {
+      const scene::Part& of = scene.parts[part];
+      const bool moves = std::any_of(scene.motions.begin(), scene.motions.end(),
+                                     [&](const scene::PartMotion& motion) { return motion.part == part; });
+      std::vector<voxels::TriangleSpan>& spans = moves ? movingSpans_ : restingSpans_;
+      if (!spans.empty() && spans.back().end == of.firstTriangle)
+        spans.back().end += of.triangleCount;
+      else
+        spans.push_back({of.firstTriangle, of.firstTriangle + of.triangleCount});
+    }
+  }
+
   ImageStoreSettings settings_;
   std::optional<voxels::Voxelizer> voxelizer_;
+  std::optional<ray_tracing::RebuiltTree> tree_;
+  std::optional<voxels::Volume> resting_;
+  std::vector<voxels::TriangleSpan> restingSpans_, movingSpans_;
+  int restingFills_ = 0;
 };
+
+std::vector<Quantity> imageStoreQuantities() {
+  std::vector<Quantity> out = VoxelTechnique::quantities();
+  out.push_back({"rays_cut_short", "Invocations whose rays a software renderer cut short", "",
+                 Direction::LowerIsBetter});
+  out.push_back(
+      {"resting_fills", "Times that the volume of what rests has been filled", "", Direction::LowerIsBetter});
+  return out;
+}
 
 const RegisteredTechnique<ImageStore> kImageStore{
     {.name = "voxelization/image_store",
-     .version = 1,
-     .summary = "Triangles into voxels by one compute pass: no geometry shader, no cap, nothing to merge",
+     .version = 2,
+     .summary = "Triangles into voxels by compute: no geometry shader, no cap, nothing to merge",
      .source = "Gaitatzes 2012, chapter 6 (VX-12, VX-13)",
      .product = ProductKind::Colour,
      .followsMotion = true,
-     .counters = VoxelTechnique::quantities()}};
+     .counters = imageStoreQuantities()}};
 
 }  // namespace
 }  // namespace limen::techniques

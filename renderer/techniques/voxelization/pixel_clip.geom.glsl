@@ -19,6 +19,7 @@ void main() {
       gl_Position = onLayer(place[i]);
       gl_Layer = slice;
       depth = place[i][AXIS];
+      carry(place[i]);
       range = vec2(slice == 0 ? -kVoxelSlack : float(slice), slice == size - 1 ? float(size) + kVoxelSlack : float(slice + 1));
       EmitVertex();
     }

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-layout(location = 0) out float occupied;
+#include "renderer/techniques/voxelization/slice_output.glsl"
 
-void main() { occupied = 1.0; }
+void main() { writeFragment(); }

@@ -4,6 +4,19 @@
 
 layout(triangles) in;
 layout(location = 0) in vec3 place[];
+layout(location = 1) flat in uint first[];
+#ifdef SUMS
+layout(location = 2) out vec3 point;  // in voxels
+layout(location = 3) flat out uint triangle;
+#endif
+
+// What a fragment's attributes are made from.
+void carry(vec3 at) {
+#ifdef SUMS
+  point = at;
+  triangle = first[0] + uint(gl_PrimitiveIDIn);
+#endif
+}
 
 vec2 across(vec3 v) { return AXIS == 0 ? v.yz : AXIS == 1 ? v.zx : v.xy; }
 

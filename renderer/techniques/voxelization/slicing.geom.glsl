@@ -10,6 +10,7 @@ int emitted = 0;
 void send(vec3 v, int layer) {
   gl_Position = onLayer(v);
   gl_Layer = layer;
+  carry(v);
   EmitVertex();
 }
 

@@ -13,6 +13,9 @@ uniform mat4 cameraToAnchor;
 const vec3 kBackground = vec3(0.05);
 
 vec3 shadedVoxel(ivec3 voxel, vec3 sideNormal, vec3 direction) {
+#ifdef VOLUME_LIGHT
+  return texelFetch(volumeLight, voxel, 0).xyz + 0.1 * texelFetch(volumeAlbedo, voxel, 0).xyz;
+#endif
   vec3 albedo = vec3(0.7), normal = sideNormal;
 #ifdef VOLUME_ALBEDO
   albedo = texelFetch(volumeAlbedo, voxel, 0).xyz;

@@ -5,6 +5,7 @@
 
 #include "renderer/scene/part_motion.h"
 #include "renderer/techniques/voxelization/voxelization_bindings.h"
+#include "renderer/voxels/exact_attributes.h"
 #include "renderer/voxels/exact_voxels.h"
 #include "renderer/voxels/voxel_bindings.h"
 
@@ -31,8 +32,11 @@ const SettingsTable<VoxelGridSettings>& VoxelGridSettings::table() {
 void VoxelTechnique::prepare(frame::Frame& frame) {
   const scene::Bounds bounds =
       gridSettings_.box == GridBox::Casters ? frame.scene().casterBounds() : frame.scene().bounds();
+  voxels::VolumeAttributes attributes = this->attributes();
+  // By Coverage::Thin a triangle enters a voxel three times at most.
+  attributes.mostEntries = 3 * int64_t{frame.gpuScene().triangleCount()};
   volume_.emplace(frame.context(), voxels::tightGrid(bounds, gridSettings_.resolution),
-                  frame.gpuScene().anchor(), attributes());
+                  frame.gpuScene().anchor(), attributes);
   picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
   show_ = &frame.context().programs().compute("renderer/techniques/voxelization/voxel_picture.comp.glsl",
                                               volume_->defines());
@@ -42,6 +46,7 @@ void VoxelTechnique::prepare(frame::Frame& frame) {
 }
 
 void VoxelTechnique::render(frame::Frame& frame) {
+  beforeFill(frame);
   {
     const auto scope = frame.passes().open(pass_);
     fill(frame, *volume_);
@@ -68,12 +73,22 @@ std::vector<Counter> VoxelTechnique::count(frame::Frame& frame) {
   // A middle line's ends are left out, where rounding decides.
   const int64_t holes =
       voxels::compare(found, voxels::separatingVoxels(mesh, grid, 2.0 * voxels::kVoxelSlack)).missing;
-  return {{"voxels", double(voxels::countOf(found))},
-          {"exact_voxels", double(voxels::countOf(exact))},
-          {"missing_voxels", double(difference.missing)},
-          {"extra_voxels", double(difference.extra)},
-          {"hole_voxels", double(holes)},
-          {"volume_mib", double(volume_->bytes()) / 1048576.0}};
+  std::vector<Counter> counters = {{"voxels", double(voxels::countOf(found))},
+                                   {"exact_voxels", double(voxels::countOf(exact))},
+                                   {"missing_voxels", double(difference.missing)},
+                                   {"extra_voxels", double(difference.extra)},
+                                   {"hole_voxels", double(holes)},
+                                   {"volume_mib", double(volume_->bytes()) / 1048576.0},
+                                   {"voxel_bits", double(volume_->attributes().bitsPerVoxel())}};
+  if (volume_->attributes().albedo && volume_->attributes().normal) {
+    const voxels::AttributeError error =
+        voxels::compare(*volume_, voxels::exactAttributes(frame.scene(), mesh, grid));
+    counters.push_back({"albedo_rms", error.albedo});
+    counters.push_back({"normal_rms_deg", error.normalDeg});
+  }
+  const std::vector<Counter> own = countForm();
+  counters.insert(counters.end(), own.begin(), own.end());
+  return counters;
 }
 
 std::vector<Quantity> VoxelTechnique::quantities() {
@@ -84,7 +99,14 @@ std::vector<Quantity> VoxelTechnique::quantities() {
           {"extra_voxels", "Occupied voxels that no surface meets", "", Direction::LowerIsBetter},
           {"hole_voxels", "Empty voxels with a middle line through a surface", "", Direction::LowerIsBetter,
            "Laine 2013"},
-          {"volume_mib", "Memory of the volume", "MiB", Direction::LowerIsBetter, table}};
+          {"volume_mib", "Memory of the volume, with the sums that means are made of", "MiB",
+           Direction::LowerIsBetter, table},
+          {"voxel_bits", "Bits of a voxel's attributes", "", Direction::Neither,
+           "Gaitatzes 2012, section 6.2 (1,024)"},
+          {"albedo_rms", "Error of voxels' albedos, of the means over their surfaces", "",
+           Direction::LowerIsBetter},
+          {"normal_rms_deg", "Angle between voxels' normals and the means over their surfaces", "deg",
+           Direction::LowerIsBetter}};
 }
 
 }  // namespace limen::techniques

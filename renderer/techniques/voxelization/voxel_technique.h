@@ -39,8 +39,12 @@ class VoxelTechnique : public Technique {
   virtual voxels::VolumeAttributes attributes() const { return {}; }
   /// Compiles and allocates; returns the bytes that it holds besides the volume.
   virtual int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) = 0;
+  /// What fill() needs and passes of their own make.
+  virtual void beforeFill(frame::Frame&) {}
   /// Fills the volume, which holds whatever it held.
   virtual void fill(frame::Frame& frame, const voxels::Volume& volume) = 0;
+  /// Besides quantities().
+  virtual std::vector<Counter> countForm() const { return {}; }
 
  private:
   VoxelGridSettings gridSettings_;

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+#include "renderer/voxels/exact_attributes.h"
 #include "renderer/voxels/exact_voxels.h"
 #include "tests/renderer/voxels/clipped_triangle.h"
 
@@ -81,6 +83,44 @@ TEST(ExactVoxels, BordersBelongToVoxels) {
   EXPECT_FALSE(meetsVoxel(face, {1, 0, 0}));
   const glm::dvec3 point[3] = {glm::dvec3(1.0), glm::dvec3(1.0), glm::dvec3(1.0)};
   for (int i = 0; i < 8; ++i) EXPECT_TRUE(meetsVoxel(point, {i & 1, i >> 1 & 1, i >> 2}));
+}
+
+// What lies in voxels is the mesh: its area, and of a closed one no direction is left over.
+TEST(ExactAttributes, AreasOfVoxelsAreTheMeshs) {
+  scene::Scene scene;
+  scene::addPart(scene, "ball", scene::sphere({0.1, -0.2, 0.3}, 0.7, 6), glm::vec3(0.25F));
+  VoxelGrid grid = tightGrid(scene.bounds(), 13);
+  grid.origin -= 0.013, grid.resolution += 1;
+  double area = 0.0, expected = 0.0;
+  glm::dvec3 left(0.0);
+  for (const auto& [index, voxel] : exactAttributes(scene, scene.mesh, grid)) {
+    area += voxel.area;
+    left += voxel.area * voxel.normal;
+    EXPECT_LE(glm::length(voxel.normal), 1.0 + 1e-12);
+    EXPECT_NEAR(voxel.albedo.y, 0.25, 1e-12);
+  }
+  for (const glm::uvec3 t : scene.mesh.triangles)
+    expected += 0.5 * glm::length(glm::cross(scene.mesh.positions[t.y] - scene.mesh.positions[t.x],
+                                             scene.mesh.positions[t.z] - scene.mesh.positions[t.x]));
+  EXPECT_NEAR(area * grid.voxelSize * grid.voxelSize, expected, 1e-9);
+  EXPECT_LT(glm::length(left), 1e-9);
+}
+
+// A voxel of two surfaces, one of three times the area: their means by area.
+TEST(ExactAttributes, SurfacesCountByArea) {
+  scene::Scene scene;
+  scene::addPart(scene, "wide", scene::card({0.5, 0.25, 0.5}, {0.0, 0.0, 0.3}, {0.3, 0.0, 0.0}),
+                 {0.8F, 0.0F, 0.4F});
+  scene::addPart(scene, "narrow", scene::card({0.5, 0.5, 0.75}, {0.1, 0.0, 0.0}, {0.0, 0.3, 0.0}),
+                 {0.0F, 0.4F, 0.4F});
+  VoxelGrid grid;
+  const ExactAttributes voxel = exactAttributes(scene, scene.mesh, grid).at(0);
+  EXPECT_NEAR(voxel.area, 0.36 + 0.12, 1e-9);
+  EXPECT_NEAR(voxel.albedo.x, 0.6, 1e-6);
+  EXPECT_NEAR(voxel.albedo.y, 0.1, 1e-6);
+  EXPECT_NEAR(voxel.albedo.z, 0.4, 1e-6);
+  EXPECT_NEAR(voxel.normal.y, 0.75, 1e-9);
+  EXPECT_NEAR(voxel.normal.z, 0.25, 1e-9);
 }
 
 }  // namespace

@@ -5,48 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
-#include "renderer/frame/scene_on_gpu.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 #include "renderer/voxels/exact_voxels.h"
 #include "renderer/voxels/voxel_bindings.h"
 #include "tests/renderer/voxels/clipped_triangle.h"
+#include "tests/renderer/voxels/voxelizer_fixture.h"
 
 namespace limen::voxels {
 namespace {
 
-class VoxelizerTest : public testing::Test {
- protected:
-  static gl::Context& context() {
-    static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
-    return *kContext;
-  }
-  void SetUp() override { context().makeCurrent(); }
-  void TearDown() override {
-    for (const gl::DebugMessage& message : context().takeDebugMessages())
-      if (!message.performance || context().device().software) ADD_FAILURE() << message.text;
-  }
-
-  /// Voxels of a scene; `with` is called with the volume.
-  template <class With>
-  static std::vector<uint8_t> voxelize(const scene::Scene& scene, const VoxelGrid& grid, Coverage coverage,
-                                       const VolumeAttributes& attributes, With with) {
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, {16, 16});
-    const Volume volume(context(), grid, gpuScene.anchor(), attributes);
-    const Voxelizer voxelizer(context(), coverage, volume);
-    frame.begin();
-    voxelizer.run(frame, volume);
-    frame.end();
-    with(volume);
-    return volume.readOccupied();
-  }
-  static std::vector<uint8_t> voxelize(const scene::Scene& scene, const VoxelGrid& grid, Coverage coverage) {
-    return voxelize(scene, grid, coverage, {}, [](const Volume&) {});
-  }
-};
+class VoxelizerTest : public VoxelizerFixture {};
 
 /// Triangles of all sizes and shapes: smaller than a voxel, slivers, large slanted ones, segments, points.
 scene::Scene soup(int64_t seed) {
@@ -192,67 +162,6 @@ TEST_F(VoxelizerTest, LeavesNoHoles) {
   scene::addPart(ball, "ball", scene::sphere(glm::dvec3(-0.05, 0.0, -0.2), 0.6, 24), glm::vec3(0.5F));
   for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     EXPECT_FALSE(leadsTo(voxelize(ball, grid, coverage), grid, {0, 0, 0}, {19, 20, 16}));
-}
-
-// Two cards that cross, of two colours: each voxel's means from its entries, counted in double precision.
-TEST_F(VoxelizerTest, AttributesAreMeansOverEntries) {
-  scene::Scene scene;
-  scene::addPart(scene, "red", scene::card({0.0, 0.0, 0.0}, {1.0, 0.31, 0.07}, {0.05, 0.1, 0.9}),
-                 {0.8F, 0.1F, 0.2F});
-  scene::Material glass;
-  glass.albedo = {0.1F, 0.6F, 0.3F};
-  glass.transmittance = {0.5F, 0.5F, 0.5F};
-  scene::addPart(scene, scene::card({0.03, 0.02, 0.01}, {0.1, 0.8, 0.2}, {0.7, -0.1, 0.5}), glass);
-  const VoxelGrid grid = tightGrid(scene.bounds(), 24);
-  struct Entries {
-    double count = 0.0, opacity = 0.0;
-    glm::dvec3 albedo{0.0}, normal{0.0};
-    bool close = false;  // to a decision that floats may take otherwise
-  };
-  std::vector<Entries> expected(static_cast<size_t>(grid.count()));
-  for (size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    const glm::uvec3 triangle = scene.mesh.triangles[i];
-    const glm::dvec3 at[3] = {grid.toVoxels(scene.mesh.positions[triangle.x]),
-                              grid.toVoxels(scene.mesh.positions[triangle.y]),
-                              grid.toVoxels(scene.mesh.positions[triangle.z])};
-    const bool isGlass = i >= scene.parts[1].firstTriangle;
-    for (int z = 0; z < grid.resolution.z; ++z)
-      for (int y = 0; y < grid.resolution.y; ++y)
-        for (int x = 0; x < grid.resolution.x; ++x) {
-          Entries& entries = expected[static_cast<size_t>(grid.indexOf({x, y, z}))];
-          const bool surely = clippedMeets(at, {x, y, z}, -kNear);
-          if (surely != clippedMeets(at, {x, y, z}, kNear)) entries.close = true;
-          if (!surely) continue;
-          entries.count += 1.0;
-          entries.albedo += isGlass ? glm::dvec3(0.1, 0.6, 0.3) : glm::dvec3(0.8, 0.1, 0.2);
-          entries.opacity += isGlass ? 0.5 : 1.0;
-          entries.normal += glm::normalize(glm::cross(at[1] - at[0], at[2] - at[0]));
-        }
-  }
-  const VolumeAttributes attributes{.albedo = true, .normal = true, .format = gl::Format::RGBA32F};
-  voxelize(scene, grid, Coverage::Conservative, attributes, [&](const Volume& volume) {
-    int compared = 0, mixed = 0;
-    // Sums in steps of 1 / kVoxelFixed are off by half a step an entry.
-    const double bound = 0.51 / kVoxelFixed + 1e-6;
-    for (int z = 0; z < grid.resolution.z; ++z) {
-      const Image albedo = volume.albedo().readLayer(z), normal = volume.normal().readLayer(z);
-      for (int y = 0; y < grid.resolution.y; ++y)
-        for (int x = 0; x < grid.resolution.x; ++x) {
-          const Entries& entries = expected[static_cast<size_t>(grid.indexOf({x, y, z}))];
-          if (entries.close) continue;
-          const double count = std::max(entries.count, 1.0);
-          for (int c = 0; c < 3; ++c) {
-            ASSERT_NEAR(albedo.at(x, y, c), entries.albedo[c] / count, bound);
-            ASSERT_NEAR(normal.at(x, y, c), entries.normal[c] / count, bound);
-          }
-          ASSERT_NEAR(normal.at(x, y, 3), entries.opacity / count, bound);
-          if (entries.count > 0.0) ++compared;
-          if (entries.opacity / count > 0.51 && entries.opacity / count < 0.99) ++mixed;
-        }
-    }
-    EXPECT_GT(compared, 500);
-    EXPECT_GT(mixed, 10);
-  });
 }
 
 // Whether few triangles share all groups or each is one invocation's: a box, alone and among many small balls
