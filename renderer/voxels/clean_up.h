@@ -36,15 +36,16 @@ double biasOf(const CleanUpBias& bias, const DepthView& view, const VoxelGrid& g
 /// Which pixels have to see through a voxel.
 enum class Proof {
   Centre,    ///< the one that sees its middle
-  Footprint  ///< up to 16 that it may cover, spread evenly: what of it is seen has to be empty
+  Support,   ///< that one, and none of up to 16 that the voxel may cover, spread evenly, sees a surface in it
+  Footprint  ///< all of those: a voxel that is hidden in part stays
 };
-constexpr EnumNames<Proof, 2> enumNames(Proof) {
-  return {{{{Proof::Centre, "centre"}, {Proof::Footprint, "footprint"}}}};
+constexpr EnumNames<Proof, 3> enumNames(Proof) {
+  return {{{{Proof::Centre, "centre"}, {Proof::Support, "support"}, {Proof::Footprint, "footprint"}}}};
 }
 
 struct CleanUpSettings {
-  CleanUpBias bias = TightBias{};
-  Proof proof = Proof::Footprint;
+  CleanUpBias bias = RadiusBias{};
+  Proof proof = Proof::Support;
   bool sky = true;
   static const SettingsTable<CleanUpSettings>& table();
 };

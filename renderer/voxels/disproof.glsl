@@ -22,11 +22,12 @@ int disproofByView(int view, ivec3 voxel) {
   if (!(middle.z > viewNear[view])) return kDisproofStays;
   const vec2 place = viewPlace(view, middle);
   if (!isInView(view, place)) return kDisproofStays;
+  const int atCentre = disproofOfPixel(view, ivec2(place), middle.z);
 #if PROOF == PROOF_CENTRE
-  return disproofOfPixel(view, ivec2(place), middle.z);
+  return atCentre;
 #else
-  // All pixels around the middle that the voxel may cover, or an even choice of them, have to see through it. Half the extent of
-  // the voxel in the image; what reaches beside the image is not looked at.
+  if (atCentre != kDisproofCleared) return atCentre;
+  // Half the extent of the voxel in the image; what reaches beside the image is not looked at.
   const mat3 sides = mat3(viewFromVoxels[view]);
   const vec2 tangent = middle.xy / middle.z;
   vec2 reach = vec2(0.0);
@@ -35,15 +36,16 @@ int disproofByView(int view, ivec3 voxel) {
   const ivec2 last = viewSizePx[view] - 1;
   const ivec2 low = clamp(ivec2(floor(place - reach)), ivec2(0), last), high = clamp(ivec2(floor(place + reach)), ivec2(0), last);
   const ivec2 steps = min(high - low, ivec2(kFootprintSteps));
-  int found = kDisproofCleared;
   for (int y = 0; y <= steps.y; ++y)
     for (int x = 0; x <= steps.x; ++x) {
-      const ivec2 pixel = low + ((high - low) * ivec2(x, y)) / max(steps, ivec2(1));
-      const int one = disproofOfPixel(view, pixel, middle.z);
-      if (one == kDisproofSurface) return one;
-      found = min(found, one);
+      const int one = disproofOfPixel(view, low + ((high - low) * ivec2(x, y)) / max(steps, ivec2(1)), middle.z);
+#if PROOF == PROOF_FOOTPRINT
+      if (one != kDisproofCleared) return kDisproofStays;
+#else
+      if (one == kDisproofSurface) return kDisproofStays;
+#endif
     }
-  return found;
+  return kDisproofCleared;
 #endif
 }
 

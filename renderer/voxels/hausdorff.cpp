@@ -62,7 +62,10 @@ HausdorffDistances hausdorff(const scene::Mesh& mesh, const VoxelGrid& grid,
     return glm::any(glm::lessThan(at, glm::dvec3(0.0))) ||
            glm::any(glm::greaterThan(at, glm::dvec3(grid.resolution)));
   });
-  return {directed(middles, surface), directed(points, cloud)};
+  const size_t most = static_cast<size_t>(std::max(samples, 1)), step = (middles.size() + most - 1) / most;
+  std::vector<glm::dvec3> chosen;
+  for (size_t i = 0; i < middles.size(); i += std::max<size_t>(step, 1)) chosen.push_back(middles[i]);
+  return {directed(chosen, surface), directed(points, cloud)};
 }
 
 }  // namespace limen::voxels

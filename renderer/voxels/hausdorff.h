@@ -15,7 +15,7 @@ struct DirectedDistances {
 };
 
 /// Between the middles of occupied voxels and a surface (Gaitatzes 2012, section 7.7): exact distances from
-/// every middle to the triangles, and from points spread over the area of what of the surface lies in the
+/// middles to the triangles, and from points spread over the area of what of the surface lies in the
 /// grid to the nearest middle.
 struct HausdorffDistances {
   DirectedDistances fromVoxels, fromSurface;
@@ -30,8 +30,8 @@ struct HausdorffDistances {
   }
 };
 
-/// `occupied`: a byte a voxel in the order of VoxelGrid::indexOf(). `samples`: points on the mesh. Triangles
-/// that are not finite are left out.
+/// `occupied`: a byte a voxel in the order of VoxelGrid::indexOf(). `samples`: points on the mesh, and middles at
+/// most: of more, every so many. Triangles that are not finite are left out.
 HausdorffDistances hausdorff(const scene::Mesh& mesh, const VoxelGrid& grid,
                              const std::vector<uint8_t>& occupied, int samples = 20000, int64_t seed = 1);
 

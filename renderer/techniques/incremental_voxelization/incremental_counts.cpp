@@ -92,6 +92,7 @@ std::vector<Counter> IncrementalTechnique::count(frame::Frame& frame) {
       {"from_surface_mean", percent(own.fromSurface.mean, diagonal)},
       {"full_hausdorff_largest", percent(whole.largest(), diagonal)},
       {"full_hausdorff_mean", percent(whole.mean(), diagonal)},
+      {"beyond_full_mean", percent(own.mean(), diagonal) - percent(whole.mean(), diagonal)},
       {"volume_mib", double(volume_->bytes()) / 1048576.0}};
   if (!countsSteps()) return out;
   const voxels::SampleCounts counts = volume_->counts();
@@ -129,6 +130,7 @@ std::vector<Quantity> IncrementalTechnique::quantities() {
            table},
           {"full_hausdorff_mean", "Mean distance of the whole mesh's voxels, the larger of both directions",
            "% of diagonal", neither, table},
+          {"beyond_full_mean", "Mean distance beyond that of the whole mesh's voxels", "% of diagonal", lower, table},
           {"volume_mib", "Memory of the volume", "MiB", lower}};
 }
 

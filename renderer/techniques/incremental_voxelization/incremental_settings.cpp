@@ -5,8 +5,8 @@
 
 namespace limen::techniques {
 
-const SettingsTable<BoxAroundCamera>& BoxAroundCamera::table() {
-  using S = BoxAroundCamera;
+const SettingsTable<CubeAroundCamera>& CubeAroundCamera::table() {
+  using S = CubeAroundCamera;
   static const SettingsTable<S> kTable = {
       {&S::extent, "extent", {0.01, 4.0}, "", "Side of the cube as a share of the scene's diagonal"},
       {&S::step, "step", {1, 256}, "voxels", "The cube moves by multiples of this; where it moves, it is emptied"}};
@@ -53,9 +53,9 @@ const SettingsTable<IncrementalSettings>& IncrementalSettings::table() {
 
 voxels::VoxelGrid gridFor(const scene::Scene& scene, const scene::Camera& camera, const IncrementalBox& box,
                           int resolution) {
-  const auto* around = std::get_if<BoxAroundCamera>(&box);
+  const auto* around = std::get_if<CubeAroundCamera>(&box);
   if (!around)
-    return voxels::tightGrid(std::holds_alternative<BoxOfCasters>(box) ? scene.casterBounds() : scene.bounds(),
+    return voxels::tightGrid(std::holds_alternative<IncrementalBoxOfCasters>(box) ? scene.casterBounds() : scene.bounds(),
                              resolution);
   voxels::VoxelGrid grid;
   const double diagonal = scene.bounds().diagonal(), side = around->extent * (diagonal > 0.0 ? diagonal : 1.0);

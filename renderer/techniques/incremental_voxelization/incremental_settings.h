@@ -10,20 +10,20 @@
 
 namespace limen::techniques {
 
-struct BoxOfScene {
+struct IncrementalBoxOfScene {
   static constexpr const char *kKind = "scene", *kSummary = "the whole scene, wherever its parts move";
 };
-struct BoxOfCasters {
+struct IncrementalBoxOfCasters {
   static constexpr const char *kKind = "casters", *kSummary = "what casts shadows";
 };
 /// A cube that goes with the camera.
-struct BoxAroundCamera {
+struct CubeAroundCamera {
   static constexpr const char *kKind = "around_camera", *kSummary = "a cube around the eye, moved in steps";
   double extent = 0.5;
   int step = 8;
-  static const SettingsTable<BoxAroundCamera>& table();
+  static const SettingsTable<CubeAroundCamera>& table();
 };
-using IncrementalBox = std::variant<BoxOfScene, BoxOfCasters, BoxAroundCamera>;
+using IncrementalBox = std::variant<IncrementalBoxOfScene, IncrementalBoxOfCasters, CubeAroundCamera>;
 
 /// The grid in which a camera's frame is voxelized.
 voxels::VoxelGrid gridFor(const scene::Scene& scene, const scene::Camera& camera, const IncrementalBox& box,
@@ -55,7 +55,7 @@ struct SequenceSettings {
 
 struct IncrementalSettings {
   int resolution = 64;
-  IncrementalBox box = BoxOfScene{};
+  IncrementalBox box = IncrementalBoxOfScene{};
   LightMapSettings lightMap;
   SequenceSettings sequence;
   static const SettingsTable<IncrementalSettings>& table();

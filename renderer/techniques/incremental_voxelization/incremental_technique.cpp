@@ -82,8 +82,8 @@ void IncrementalTechnique::renderSequence(frame::Frame& frame) {
   frame.setTime(now);
 }
 
-void IncrementalTechnique::step(frame::Frame& frame) {
-  if (std::holds_alternative<BoxAroundCamera>(settings_.box)) {
+IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
+  if (std::holds_alternative<CubeAroundCamera>(settings_.box)) {
     const voxels::VoxelGrid grid = gridFor(frame.scene(), frame.camera(), settings_.box, settings_.resolution);
     if (grid.origin != volume_->grid().origin) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
@@ -99,13 +99,21 @@ void IncrementalTechnique::step(frame::Frame& frame) {
     views_[1] = lightMap_->view();
   }
   volume_->turn();
-  update({frame, *volume_, views_, lighting_, number_});
-  ++number_;
+  const Step step{frame, *volume_, views_, lighting_, number_++};
+  update(step);
+  return step;
 }
 
 void IncrementalTechnique::render(frame::Frame& frame) {
-  step(frame);
+  const Step now = step(frame);
   const auto scope = frame.passes().open(kPicturePass);
+  show(now, *picture_);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void IncrementalTechnique::show(const Step& step, const gl::Texture& picture) {
+  frame::Frame& frame = step.frame;
   volume_->configure(*show_);
   if (attributes_.volume) {
     volume_->albedo().bindTexture(voxels::kVolumeAlbedoUnit);
@@ -114,11 +122,9 @@ void IncrementalTechnique::render(frame::Frame& frame) {
   show_->set("cameraToAnchor", glm::mat4(glm::inverse(frame.anchorToCamera())));
   show_->set("rayScale", glm::vec2(frame.tanHalfFov() * frame.aspect(), frame.tanHalfFov()));
   show_->set("sizePx", frame.sizePx());
-  picture_->bindImage(kVoxelPictureImage, gl::Access::Write);
+  picture.bindImage(kVoxelPictureImage, gl::Access::Write);
   show_->use();
   show_->dispatch(frame.sizePx());
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
-                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 }  // namespace limen::techniques

@@ -50,13 +50,15 @@ class IncrementalTechnique : public Technique {
   virtual int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) = 0;
   /// Brings the volume from the last frame to this one. Opens passes.
   virtual void update(const Step& step) = 0;
+  /// Renders the product of a step; by default a picture of the voxels.
+  virtual void show(const Step& step, const gl::Texture& picture);
   /// The grid moved and the volume is empty.
   virtual void restarted(const voxels::VoxelGrid&) {}
   /// Whether the volume counts what a step does.
   virtual bool countsSteps() const { return true; }
 
  private:
-  void step(frame::Frame& frame);
+  Step step(frame::Frame& frame);
   void renderSequence(frame::Frame& frame);
   std::vector<uint8_t> oncePresent(const frame::Frame& frame) const;
 

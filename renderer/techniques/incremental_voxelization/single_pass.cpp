@@ -12,7 +12,7 @@ namespace {
 struct SinglePassSettings {
   IncrementalSettings common;
   bool attributes = true;
-  voxels::CleanUpBias bias = voxels::TightBias{};
+  voxels::CleanUpBias bias = voxels::RadiusBias{};
   bool sky = true;
   static const SettingsTable<SinglePassSettings>& table() {
     using S = SinglePassSettings;

@@ -2,7 +2,8 @@
 // Voxels kept from frame to frame: those that a depth image disproves are emptied, then points of the images
 // fill the voxels that they lie in (IV-01 to IV-07, IV-11, IV-12). Source: Gaitatzes 2012, section 7.4, whose
 // formula for the depth has the wrong sign. Departures: in place, by compute shaders that visit occupied voxels
-// alone; a voxel is empty only if all of what is seen of it is; points move within their cells; attributes are
+// alone; a voxel that its middle's pixel disproves stays if another pixel sees a surface in it, which else would be
+// emptied and filled again in every frame; points move within their cells; attributes are
 // means over a voxel's samples, light is stored as radiance instead of as harmonics, which follow from it and
 // the normal; the light's samples count as their mean, not as a sum of fluxes, which would depend on the map.
 #include <optional>
