@@ -2,6 +2,7 @@
 // Clean-up and injection in one (Gaitatzes 2012, section 7.4.3): a voxel whose middle lies within the bias of the surface that a
 // view sees there is filled with what that pixel shows; one before it is emptied; one behind it stays. A brick a group, a row of
 // 32 voxels half of its invocations.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/voxels/disproof.glsl"
 #ifdef ATTRIBUTES
 #include "renderer/voxels/seen_surface.glsl"

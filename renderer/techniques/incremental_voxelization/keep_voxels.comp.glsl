@@ -9,6 +9,17 @@ layout(binding = kVoxelSourceUnit) uniform VOXEL_SAMPLER sources[TARGETS];
 layout(binding = kVoxelTargetImage, FORMAT) uniform writeonly VOXEL_IMAGE targets[TARGETS];
 uniform int cleanedView;
 
+#if TARGETS == 4
+void copyLight(ivec3 voxel, bool keeps) {
+  const vec4 red = texelFetch(sources[1], texelOf(voxel, gridSize()), 0);
+  const vec4 green = texelFetch(sources[2], texelOf(voxel, gridSize()), 0);
+  const vec4 blue = texelFetch(sources[3], texelOf(voxel, gridSize()), 0);
+  imageStore(targets[1], texelOf(voxel, gridSize()), keeps ? red : vec4(0.0));
+  imageStore(targets[2], texelOf(voxel, gridSize()), keeps ? green : vec4(0.0));
+  imageStore(targets[3], texelOf(voxel, gridSize()), keeps ? blue : vec4(0.0));
+}
+#endif
+
 void main() {
   const ivec3 voxel = ivec3(gl_GlobalInvocationID);
   if (!isInGrid(voxel)) return;
@@ -17,15 +28,13 @@ void main() {
   const bool keeps = first.w > 0.0 && disproofByView(cleanedView, voxel) != kDisproofCleared;
   imageStore(targets[0], texelOf(voxel, gridSize()), keeps ? first : vec4(0.0));
 #if TARGETS == 4
-  for (int i = 1; i < TARGETS; ++i)
-    imageStore(targets[i], texelOf(voxel, gridSize()), keeps ? texelFetch(sources[i], texelOf(voxel, gridSize()), 0) : vec4(0.0));
+  copyLight(voxel, keeps);
 #endif
 #else
   if (!(first.w > 0.0)) return;
   imageStore(targets[0], texelOf(voxel, gridSize()), first / first.w);
 #if TARGETS == 4
-  for (int i = 1; i < TARGETS; ++i)
-    imageStore(targets[i], texelOf(voxel, gridSize()), texelFetch(sources[i], texelOf(voxel, gridSize()), 0));
+  copyLight(voxel, true);
 #endif
 #endif
 }

@@ -3,11 +3,14 @@
 // image after another; points of the images drawn into a volume of their own, those of the light added up and
 // those of the camera in their place, which then replaces what is in the volume (IV-01, IV-04, IV-05, IV-09).
 // Source: Gaitatzes 2012, sections 7.4 to 7.6. Departures: the clean-up is a compute pass over voxels instead of
-// a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands for.
+// a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands for. Occupancy
+// is tested; normals and harmonics are not, and read as 0 on llvmpipe: only their cost may be used.
 #include <epoxy/gl.h>
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
@@ -51,6 +54,15 @@ class PointRaster : public IncrementalTechnique {
       : IncrementalTechnique(settings.common, {.volume = false, .lit = settings.targets == 4}), settings_(settings) {}
   ~PointRaster() override {
     if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
+  }
+
+  /// The atlas; layers of arrays are no pictures.
+  std::map<std::string, const gl::Texture*> debugViews() const override {
+    std::map<std::string, const gl::Texture*> out;
+    if (settings_.layout != VoxelLayout::Atlas || !volumes_[latest_]) return out;
+    constexpr std::array kNames = {"normal", "harmonics_red", "harmonics_green", "harmonics_blue"};
+    for (int i = 0; i < settings_.targets; ++i) out[kNames[static_cast<size_t>(i)]] = &volumes_[latest_]->target(i);
+    return out;
   }
 
  protected:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sequences of frames: what stays, what goes, and what does not depend on how it is done.
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/voxels/exact_voxels.h"
-#include "renderer/scene/part_motion.h"
 #include "tests/renderer/techniques/technique_fixture.h"
 
 namespace limen::techniques {
@@ -16,6 +17,7 @@ struct Sequence {
   voxels::VoxelGrid grid;
   std::vector<Image> normals, lights;  // a layer each; only with attributes
   std::map<std::string, double> counters;
+  std::map<std::string, Image> atlas;  // of the point raster
 };
 
 class IncrementalSequence : public TechniqueTest {
@@ -37,6 +39,7 @@ class IncrementalSequence : public TechniqueTest {
     const auto& incremental = dynamic_cast<const IncrementalTechnique&>(*made);
     out.voxels = incremental.volume().occupancy().readOccupied();
     out.grid = incremental.volume().grid();
+    for (const auto& [name, texture] : made->debugViews()) out.atlas[name] = texture->read();
     if (attributes)
       for (int z = 0; z < out.grid.resolution.z; ++z) {
         out.normals.push_back(incremental.volume().normal().readLayer(z));
