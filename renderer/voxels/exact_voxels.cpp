@@ -40,13 +40,13 @@ glm::ivec2 sidesMet(double low, double high, int size) {
           std::clamp(static_cast<int>(std::floor(high)), 0, size - 1)};
 }
 
-bool separates(glm::dvec3 axis, const glm::dvec3 (&corners)[3]) {
+bool separates(glm::dvec3 axis, const glm::dvec3 (&corners)[3], double half) {
   double low = glm::dot(axis, corners[0]), high = low;
   for (int i = 1; i < 3; ++i) {
     const double at = glm::dot(axis, corners[i]);
     low = std::min(low, at), high = std::max(high, at);
   }
-  const double reach = 0.5 * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+  const double reach = half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
   return low > reach || high < -reach;
 }
 
@@ -86,31 +86,32 @@ void addMiddleLines(const Corners& corners, int axis, const VoxelGrid& grid, dou
 
 }  // namespace
 
-bool meetsVoxel(const glm::dvec3 (&corners)[3], glm::ivec3 voxel) {
+bool meetsVoxel(const glm::dvec3 (&corners)[3], glm::ivec3 voxel, double slack) {
+  const double half = 0.5 + slack;
   const glm::dvec3 middle = glm::dvec3(voxel) + 0.5;
   const glm::dvec3 at[3] = {corners[0] - middle, corners[1] - middle, corners[2] - middle};
   const glm::dvec3 edges[3] = {at[1] - at[0], at[2] - at[1], at[0] - at[2]};
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 along(0.0);
     along[axis] = 1.0;
-    if (separates(along, at)) return false;
+    if (separates(along, at, half)) return false;
     for (const glm::dvec3& edge : edges)
-      if (separates(glm::cross(along, edge), at)) return false;
+      if (separates(glm::cross(along, edge), at, half)) return false;
   }
-  return !separates(glm::cross(edges[0], edges[1]), at);
+  return !separates(glm::cross(edges[0], edges[1]), at, half);
 }
 
-std::vector<uint8_t> exactVoxels(const scene::Mesh& mesh, const VoxelGrid& grid) {
+std::vector<uint8_t> exactVoxels(const scene::Mesh& mesh, const VoxelGrid& grid, double slack) {
   std::vector<uint8_t> out(static_cast<size_t>(grid.count()));
   forTriangles(mesh, grid, [&](const Corners& corners) {
     glm::ivec2 range[3];
     for (int axis = 0; axis < 3; ++axis)
-      range[axis] = sidesMet(corners.low[axis], corners.high[axis], grid.resolution[axis]);
+      range[axis] = sidesMet(corners.low[axis] - slack, corners.high[axis] + slack, grid.resolution[axis]);
     for (int z = range[2].x; z <= range[2].y; ++z)
       for (int y = range[1].x; y <= range[1].y; ++y)
         for (int x = range[0].x; x <= range[0].y; ++x) {
           uint8_t& voxel = out[static_cast<size_t>(grid.indexOf({x, y, z}))];
-          if (!voxel && meetsVoxel(corners.at, {x, y, z})) voxel = 1;
+          if (!voxel && meetsVoxel(corners.at, {x, y, z}, slack)) voxel = 1;
         }
   });
   return out;

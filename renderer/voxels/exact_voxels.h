@@ -15,10 +15,11 @@ namespace limen::voxels {
 /// Whether a triangle meets a voxel, borders included: no plane separates them, along the 13 directions that
 /// suffice for a triangle and a box (Akenine-Möller 2001). Triangles without area count as the segments or
 /// points that they are. Positions in voxels.
-bool meetsVoxel(const glm::dvec3 (&corners)[3], glm::ivec3 voxel);
+/// `slack`: the voxel reaches this much farther on all sides.
+bool meetsVoxel(const glm::dvec3 (&corners)[3], glm::ivec3 voxel, double slack = 0.0);
 
 /// All voxels that the mesh meets (BL-08). A surface exactly between two voxels meets both.
-std::vector<uint8_t> exactVoxels(const scene::Mesh& mesh, const VoxelGrid& grid);
+std::vector<uint8_t> exactVoxels(const scene::Mesh& mesh, const VoxelGrid& grid, double slack = 0.0);
 
 /// Voxels in which the mesh meets a middle line along an axis, the ends of the lines left out by `margin`
 /// voxels: those that no voxelization without holes may lack (Laine 2013, 6-separating).

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "renderer/scene/lod/closest_point.h"
+#include "renderer/scene/closest_point.h"
 
 namespace limen::scene {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "renderer/scene/bumps.h"
-#include "renderer/scene/lod/closest_point.h"
+#include "renderer/scene/closest_point.h"
 #include "renderer/scene/lod/mesh_chain.h"
 #include "renderer/scene/lod_scene_parameters.h"
 #include "renderer/scene/shapes.h"

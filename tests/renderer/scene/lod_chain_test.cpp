@@ -6,7 +6,7 @@
 #include <set>
 
 #include "renderer/scene/import.h"
-#include "renderer/scene/lod/closest_point.h"
+#include "renderer/scene/closest_point.h"
 #include "renderer/scene/lod/mesh_chain.h"
 #include "renderer/scene/lod_control.h"
 #include "renderer/scene/shapes.h"

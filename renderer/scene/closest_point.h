@@ -35,6 +35,9 @@ class ClosestPoint {
 /// Nearest point of one triangle.
 glm::dvec3 closestOnTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 point);
 
+/// Points spread evenly over the area of a mesh, seeded; none if it has no area.
+std::vector<glm::dvec3> pointsOnSurface(const Mesh& mesh, int count, int64_t seed);
+
 /// Two-sided Hausdorff distance between two surfaces, sampled: the largest distance from a vertex or from one
 /// of `samples` points spread over the area (seeded) of either mesh to the other. Never above the true value.
 double sampledDeviation(const Mesh& one, const Mesh& other, int samples = 8000, int64_t seed = 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/scene/lod/closest_point.h"
+#include "renderer/scene/closest_point.h"
 
 #include <algorithm>
 #include <array>
@@ -25,8 +25,21 @@ glm::dvec3 closestOnSegment(glm::dvec3 a, glm::dvec3 b, glm::dvec3 point) {
   return a + t * along;
 }
 
-/// Points spread evenly over the area.
-std::vector<glm::dvec3> surfaceSamples(const Mesh& mesh, int count, int64_t seed) {
+double oneSided(const Mesh& from, const ClosestPoint& to, int samples, int64_t seed) {
+  double largest = 0.0;
+  std::vector<uint8_t> used(from.positions.size(), 0);
+  for (const glm::uvec3& t : from.triangles)
+    for (int corner = 0; corner < 3; ++corner) used[t[corner]] = 1;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (used[i]) largest = std::max(largest, to.distance(from.positions[i]));
+  for (const glm::dvec3& point : pointsOnSurface(from, samples, seed))
+    largest = std::max(largest, to.distance(point));
+  return largest;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> pointsOnSurface(const Mesh& mesh, int count, int64_t seed) {
   std::vector<double> areas;
   double total = 0.0;
   for (const glm::uvec3& t : mesh.triangles) {
@@ -48,20 +61,6 @@ std::vector<glm::dvec3> surfaceSamples(const Mesh& mesh, int count, int64_t seed
   }
   return out;
 }
-
-double oneSided(const Mesh& from, const ClosestPoint& to, int samples, int64_t seed) {
-  double largest = 0.0;
-  std::vector<uint8_t> used(from.positions.size(), 0);
-  for (const glm::uvec3& t : from.triangles)
-    for (int corner = 0; corner < 3; ++corner) used[t[corner]] = 1;
-  for (size_t i = 0; i < used.size(); ++i)
-    if (used[i]) largest = std::max(largest, to.distance(from.positions[i]));
-  for (const glm::dvec3& point : surfaceSamples(from, samples, seed))
-    largest = std::max(largest, to.distance(point));
-  return largest;
-}
-
-}  // namespace
 
 glm::dvec3 closestOnTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 point) {
   const glm::dvec3 ab = b - a, ac = c - a, ap = point - a;

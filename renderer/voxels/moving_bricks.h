@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/gl/buffer.h"
+#include "renderer/scene/scene.h"
+#include "renderer/voxels/clean_up.h"
+
+namespace limen::voxels {
+
+/// Bricks of a grid in which parts that move have been: only there can a voxel become stale. A brick stays in
+/// the list, as nobody knows whether all of it has been seen since.
+class MovingBricks {
+ public:
+  MovingBricks(const scene::Scene& scene, const VoxelGrid& grid);
+  /// Where the parts are at a time of the frame.
+  void add(double timeS);
+  /// The grid has another place.
+  void restart(const VoxelGrid& grid);
+  /// Numbers, as CleanUp takes them.
+  const gl::Buffer& list() const { return buffer_; }
+  int count() const { return static_cast<int>(listed_.size()); }
+
+ private:
+  struct Moving {
+    scene::PartMotion motion;
+    scene::Bounds rest;
+  };
+  VoxelGrid grid_;
+  std::vector<Moving> parts_;
+  std::vector<uint8_t> isListed_;
+  std::vector<uint32_t> listed_;
+  gl::Buffer buffer_;
+};
+
+}  // namespace limen::voxels

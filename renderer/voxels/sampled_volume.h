@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "renderer/gl/context.h"
+#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/voxels/volume.h"
+
+namespace limen::voxels {
+
+/// Voxels that are filled from samples of depth images and kept from step to step: a bit each and, if asked
+/// for, attributes. A voxel's attributes stay until samples fall into it again, or it is emptied.
+class SampledVolume {
+ public:
+  /// Samples of one step at most. `views`: that give samples. Starts empty. Throws Error if the device
+  /// cannot hold it.
+  SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes, int views,
+                int64_t samples);
+
+  /// Whether a surface was found. The volume itself configures programs, as its grid may have moved.
+  const Volume& occupancy() const { return occupancy_; }
+  const VoxelGrid& grid() const { return grid_; }
+  /// Another place for the grid; empties the volume.
+  void moveTo(glm::dvec3 origin);
+  bool hasAttributes() const { return attributes_.has_value(); }
+  /// RGBA16F arrays, alpha 1 where there is a surface, all 0 elsewhere. Only if asked for: mean normal,
+  /// turned to the viewers and not of unit length;
+  const gl::Texture& normal() const { return attributes_->normal; }
+  const gl::Texture& albedo() const { return attributes_->albedo; }  ///< mean reflectance;
+  /// radiance that leaves the surface at once: emission and the reflected light of the lights.
+  const gl::Texture& light() const { return attributes_->light; }
+  int64_t bytes() const;
+
+  void clear() const;
+  /// The next step begins: its counts are apart from the last one's.
+  void turn() { turn_ = 1 - turn_; }
+  /// Of the last step. Waits for the GPU.
+  SampleCounts counts() const { return state_.read<SampleCounts>(turn_ * int64_t{sizeof(SampleCounts)}, 1)[0]; }
+
+  /// Uniforms and textures of volume.glsl.
+  void configure(const gl::Program& program) const;
+  /// Bits, attributes, state and their uniforms for shaders that fill.
+  void bind(const gl::Program& program) const;
+  /// What they are compiled with.
+  gl::ShaderDefines defines() const;
+  const gl::Buffer& sums() const { return attributes_->sums; }  ///< only with attributes
+
+ private:
+  struct Attributes {
+    gl::Texture normal, albedo, light, touched, slots;
+    gl::Buffer sums;
+  };
+  VoxelGrid grid_;
+  glm::dvec3 anchor_;
+  Volume occupancy_;
+  std::optional<Attributes> attributes_;
+  gl::Buffer state_;
+  int turn_ = 0;
+};
+
+}  // namespace limen::voxels

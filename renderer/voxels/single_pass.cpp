@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/voxels/single_pass.h"
+
+namespace limen::voxels {
+
+SinglePass::SinglePass(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume,
+                       int views, int used)
+    : settings_(settings),
+      program_(context.programs().compute("renderer/voxels/single_pass.comp.glsl",
+                                          disproofDefines(settings, volume, views, used))) {}
+
+void SinglePass::run(const frame::Frame& frame, const SampledVolume& volume,
+                     const std::vector<DepthView>& views, const SampleLighting& lighting) const {
+  volume.bind(program_);
+  configureDisproof(program_, settings_, views, volume.grid(), frame.gpuScene().anchor());
+  if (volume.hasAttributes()) configureSampleLights(program_, frame, lighting);
+  const glm::ivec3 counts = brickCounts(volume.grid());
+  dispatchBricks(program_, volume.grid(), counts.x * counts.y * counts.z);
+}
+
+}  // namespace limen::voxels

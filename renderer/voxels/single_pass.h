@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "renderer/voxels/clean_up.h"
+#include "renderer/voxels/injection.h"
+
+namespace limen::voxels {
+
+/// Clean-up and injection in one, at voxels' middles instead of at an image's points: without holes within
+/// what a view sees, its surfaces as thick as the bias has them. Source: Gaitatzes 2012, section 7.4.3.
+class SinglePass {
+ public:
+  SinglePass(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume, int views,
+             int used);
+  /// Opens no pass.
+  void run(const frame::Frame& frame, const SampledVolume& volume, const std::vector<DepthView>& views,
+           const SampleLighting& lighting) const;
+
+ private:
+  CleanUpSettings settings_;
+  const gl::Program& program_;
+};
+
+}  // namespace limen::voxels
