@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+
+#include "experiments/base/settings_table.h"
+
+namespace limen::many_lods {
+
+/// From the root in every frame. Source: Holländer 2013, section 3.5.2.
+struct BasicCuts {
+  static constexpr const char *kKind = "basic", *kSummary = "from the root in every frame";
+  int stepLevels = 3;
+  static const SettingsTable<BasicCuts>& table();
+};
+/// From the cut of the frame before, until every node is right.
+struct IncrementalCuts {
+  static constexpr const char *kKind = "incremental", *kSummary = "from the last frame's cut, to the end";
+  int stepLevels = 3;
+  static const SettingsTable<IncrementalCuts>& table();
+};
+/// From the cut of the frame before, by a few edges of the tree.
+struct LazyCuts {
+  static constexpr const char *kKind = "lazy", *kSummary = "from the last frame's cut, by a few edges";
+  int edges = 1;
+  static const SettingsTable<LazyCuts>& table();
+};
+/// As LazyCuts by the listing as printed: it loses and doubles parts of the surface.
+struct LiteralCuts {
+  static constexpr const char *kKind = "literal",
+                              *kSummary = "lazy by the printed listing, which breaks the cut";
+  int edges = 1;
+  static const SettingsTable<LiteralCuts>& table();
+};
+using CutMode = std::variant<IncrementalCuts, LazyCuts, BasicCuts, LiteralCuts>;
+
+}  // namespace limen::many_lods
