@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/many_lods/cut_mode.h"
 
+#include <bit>
+#include <cstdint>
+
 #include "renderer/many_lods/many_lods_bindings.h"
 
 namespace limen::many_lods {
 namespace {
 
+constexpr const char *kArityText = "Children of a node: of 4 and 8 every second and third level of the tree is one",
+                      *kAritySource = "Holländer 2013, section 3.8";
+
 template <class S>
 const SettingsTable<S>& stepsTable() {
-  static const SettingsTable<S> kTable = {{&S::stepLevels,
+  static const SettingsTable<S> kTable = {{&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+                                          {&S::stepLevels,
                                            "step_levels",
                                            {1, kMostSplitLevels},
                                            "",
@@ -19,7 +26,8 @@ const SettingsTable<S>& stepsTable() {
 
 template <class S>
 const SettingsTable<S>& edgesTable() {
-  static const SettingsTable<S> kTable = {{&S::edges,
+  static const SettingsTable<S> kTable = {{&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+                                          {&S::edges,
                                            "edges",
                                            {1, 24},
                                            "",
@@ -29,6 +37,11 @@ const SettingsTable<S>& edgesTable() {
 }
 
 }  // namespace
+
+int arityBitsOf(const CutMode& mode) {
+  return std::visit([](const auto& form) { return std::bit_width(static_cast<uint32_t>(form.arity)) - 1; },
+                    mode);
+}
 
 const SettingsTable<BasicCuts>& BasicCuts::table() { return stepsTable<BasicCuts>(); }
 const SettingsTable<IncrementalCuts>& IncrementalCuts::table() { return stepsTable<IncrementalCuts>(); }

@@ -28,8 +28,7 @@ class GpuTree {
   /// Of the leaves: SurfaceSample; of a tree that is not complete for each node, kNoTriangle in inner ones.
   const gl::Buffer& samples() const { return samples_; }
   int depth() const { return depth_; }
-  /// Nodes have 2^arityBits children, for those who walk it.
-  TreeShape shape(int arityBits = 1) const { return {height_, arityBits, links_ ? &*links_ : nullptr}; }
+  TreeShape shape() const { return {height_, links_ ? &*links_ : nullptr}; }  ///< for those who walk it
   /// Of a tree that is not complete: first node of each level, then the number of nodes' places.
   const std::vector<uint32_t>& levelFirst() const { return levelFirst_; }
   float leafRadius() const { return leafRadius_; }

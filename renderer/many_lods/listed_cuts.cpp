@@ -24,7 +24,8 @@ uint32_t edgesOf(const CutMode& mode) {
 }
 
 /// A whole number of nodes' levels.
-uint32_t splitLevelsOf(const CutMode& mode, int arityBits) {
+uint32_t splitLevelsOf(const CutMode& mode) {
+  const int arityBits = arityBitsOf(mode);
   int levels = BasicCuts{}.stepLevels;
   if (const auto* basic = std::get_if<BasicCuts>(&mode)) levels = basic->stepLevels;
   if (const auto* incremental = std::get_if<IncrementalCuts>(&mode)) levels = incremental->stepLevels;
@@ -49,8 +50,9 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       shape_(shape),
       views_(views),
       capacity_(capacity),
+      arityBits_(static_cast<uint32_t>(arityBitsOf(mode))),
       ordered_(edgesOf(mode) > 0),
-      splitLevels_(splitLevelsOf(mode, shape.arityBits)),
+      splitLevels_(splitLevelsOf(mode)),
       // Leaves of a tree that is not complete are left over as well.
       fullSteps_(std::max((static_cast<uint32_t>(shape.height) + splitLevels_ - 1) / splitLevels_, 1U) +
                  (shape.links ? 1U : 0U)),
@@ -91,7 +93,7 @@ int64_t ListedCuts::bytes() const {
 void ListedCuts::setShape(const gl::Program& program) const {
   program.set("capacity", capacity_);
   program.set("leaves", 1U << shape_.height % 32);
-  program.set("arityBits", static_cast<uint32_t>(shape_.arityBits));
+  program.set("arityBits", arityBits_);
 }
 
 void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counting) {
@@ -105,12 +107,12 @@ void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counti
   };
   // By one edge, or as far as a step can.
   const bool oneEdge = rule == kRuleOneEdge || rule == kRuleLiteral;
-  const uint32_t levels = oneEdge ? static_cast<uint32_t>(shape_.arityBits) : splitLevels_;
+  const uint32_t levels = oneEdge ? arityBits_ : splitLevels_;
   classify.set("splitLevels", levels);
   emit_->set("splitLevels", levels);
   scan_->set("lastStep", last);
   scan_->set("always", oneEdge ? 1U : 0U);
-  scan_->set("splitsEach", (1U << shape_.arityBits) - 1U);
+  scan_->set("splitsEach", (1U << arityBits_) - 1U);
   run(classify, offsetof(CutStep, classifyX));
   run(*scan_, offsetof(CutStep, scanX));
   run(*emit_, offsetof(CutStep, emitX));

@@ -40,7 +40,7 @@ class ListedCuts : public CutFinder {
 
   CutMode mode_;
   TreeShape shape_;
-  uint32_t views_, capacity_;
+  uint32_t views_, capacity_, arityBits_;
   bool ordered_;          // lazy cuts
   uint32_t splitLevels_;  // of a step that goes as far as it can
   uint32_t fullSteps_;

@@ -93,6 +93,8 @@ const uint kCutCodesBuffer = 3u;
 const uint kCutTilesBuffer = 4u;
 const uint kCutControlBuffer = 5u;
 const uint kCutLinksBuffer = 6u;
+// Triangle of the sample of an inner node, where samples are those of all nodes.
+const uint kNoTriangle = 0xffffffffu;
 
 // Of a node of a tree that is not complete (tree_shape.h).
 struct TreeLink {   // std430

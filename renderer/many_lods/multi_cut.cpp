@@ -15,10 +15,13 @@ std::unique_ptr<CutFinder> finderFor(gl::Context& context, uint32_t views, const
     throw Error("the lists of cuts have room for " + std::to_string(capacity) + " nodes; there are " +
                     std::to_string(views) + " views",
                 {}, "raise the capacity");
-  if (shape.height % shape.arityBits != 0)
+  const int bits = arityBitsOf(mode);
+  if (shape.links && bits > 1)
+    throw Error("nodes of a tree that is not complete have two children", "cuts.arity", "choose 2");
+  if (!shape.links && shape.height % bits != 0)
     throw Error("a tree of " + std::to_string(shape.height) + " levels has no whole number of levels with " +
-                    std::to_string(1 << shape.arityBits) + " children to a node",
-                "levels", "choose a multiple of " + std::to_string(shape.arityBits));
+                    std::to_string(1 << bits) + " children to a node",
+                "levels", "choose a multiple of " + std::to_string(bits));
   return std::make_unique<ListedCuts>(context, views, shape, capacity, mode);
 }
 

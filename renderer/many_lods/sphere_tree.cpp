@@ -165,7 +165,7 @@ void prepareLeaves(SphereTree& tree, const std::vector<glm::dvec3>& positions,
   tree.leafRadius = static_cast<float>(leafScale * std::sqrt(tree.area / (kPi * double(leaves))));
   tree.spheres.resize(2 * leaves);
   tree.cones.resize(2 * leaves);
-  tree.samples.resize(tree.links.empty() ? leaves : 2 * leaves);
+  tree.samples.resize(tree.links.empty() ? leaves : 2 * leaves, {kNoTriangle, 0});
 }
 
 void setLeaf(SphereTree& tree, uint32_t node, glm::dvec3 point, uint32_t triangle,

@@ -7,8 +7,7 @@ namespace limen::many_lods {
 
 /// How a tree's nodes hang together, for those who walk it on the GPU.
 struct TreeShape {
-  int height = 0;                    ///< edges from the root to the farthest leaf
-  int arityBits = 1;                 ///< of a complete tree: nodes have 2^arityBits children
+  int height = 0;                     ///< edges from the root to the farthest leaf
   const gl::Buffer* links = nullptr;  ///< TreeLink of each node; null: complete
 };
 

@@ -10,6 +10,9 @@ layout(std430, binding = kCutLinksBuffer) readonly buffer Links { TreeLink links
 layout(std430, binding = kUpdateConesBuffer) buffer Cones { uvec2 cones[]; };
 #include "renderer/many_lods/cones.glsl"
 #endif
+#ifndef LEAVES
+#define LEAVES 1
+#endif
 #include "renderer/many_lods/tree_nodes.glsl"
 
 uniform uint first, end;  // nodes of the level

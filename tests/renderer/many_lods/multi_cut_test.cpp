@@ -90,7 +90,7 @@ TEST_F(MultiCuts, LazyCutsAreWholeInEveryFrameAndArriveAtRest) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 300;
   for (const int edges : {1, 2, 4}) {
-    MultiCut lazy(context(), kViews, kDepth, 1U << 18, LazyCuts{edges});
+    MultiCut lazy(context(), kViews, kDepth, 1U << 18, LazyCuts{2, edges});
     std::vector<CutView> views = anyViews(kViews, 2);
     for (int frame = 0; frame < 8; ++frame) {
       lazy.update(onGpu.nodes(), gl::Buffer(views));
@@ -108,7 +108,7 @@ TEST_F(MultiCuts, LazyCutsAreWholeInEveryFrameAndArriveAtRest) {
 TEST_F(MultiCuts, TheListingAsPrintedBreaksTheCut) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 50;
-  MultiCut literal(context(), kViews, kDepth, 1U << 18, LiteralCuts{1});
+  MultiCut literal(context(), kViews, kDepth, 1U << 18, LiteralCuts{2, 1});
   std::vector<CutView> views = anyViews(kViews, 3);
   int broken = 0;
   for (int frame = 0; frame < 10; ++frame) {
@@ -123,7 +123,7 @@ TEST_F(MultiCuts, TheListingAsPrintedBreaksTheCut) {
 TEST_F(MultiCuts, OverfullListsLoseNothing) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 100;
-  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2})})
+  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2})})
     for (const uint32_t capacity : {kViews, 1024U, 5000U}) {
       MultiCut cut(context(), kViews, kDepth, capacity, mode);
       std::vector<CutView> views = anyViews(kViews, 4);
@@ -150,7 +150,7 @@ TEST_F(MultiCuts, OverfullListsAreFull) {
 TEST_F(MultiCuts, AfterAnOverflowTheRightCutComesBack) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 100;
-  for (const CutMode& mode : {CutMode(IncrementalCuts{}), CutMode(LazyCuts{1})}) {
+  for (const CutMode& mode : {CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 1})}) {
     MultiCut cut(context(), kViews, kDepth, 6000, mode);
     const std::vector<CutView> fine = anyViews(kViews, 4), coarse = anyViews(kViews, 4, 64.0);
     ASSERT_GT(expected(fine).size(), 6000U);
@@ -185,8 +185,8 @@ TEST_F(MultiCuts, DoNotDependOnTheLevelsOfAStep) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 200;
   for (const int levels : {1, 2, 3, 4, 5}) {
-    MultiCut basic(context(), kViews, kDepth, 1U << 18, BasicCuts{levels});
-    MultiCut incremental(context(), kViews, kDepth, 1U << 18, IncrementalCuts{levels});
+    MultiCut basic(context(), kViews, kDepth, 1U << 18, BasicCuts{2, levels});
+    MultiCut incremental(context(), kViews, kDepth, 1U << 18, IncrementalCuts{2, levels});
     std::vector<CutView> views = anyViews(kViews, 6);
     for (int frame = 0; frame < 5; ++frame) {
       const gl::Buffer onGpuViews(views);

@@ -190,6 +190,7 @@ const RegisteredTechnique<InstantRadiosity> kInstantRadiosityRegistered{
      .source = "Holländer 2013, sections 3.5 and 3.6.1 (HOL-25)",
      .product = ProductKind::Colour,
      .needs = {"area_light"},
+     .followsLight = true,
      .counters = radiosityQuantities(),
      .effort = "levels"}};
 
