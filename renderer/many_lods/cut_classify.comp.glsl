@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What becomes of each entry of the list in a step, and for tiles of the list how many entries that makes. RULE: one of kRule...
-// ORDERED: the list is kept in order, finished entries and others together. LINKED: tree_links.glsl.
+// ORDERED: the list is kept in order, finished entries and others together. LINKED: tree_links.glsl. FIRST_HALF:
+// of the tiles only.
 #include "renderer/many_lods/node_predicate.glsl"
 #include "renderer/many_lods/cut_lists.glsl"
 #include "renderer/many_lods/tree_links.glsl"
@@ -95,7 +96,11 @@ uint codeOf(uint at, uint index, uint count) {
 void main() {
   const uint me = gl_LocalInvocationIndex;
   const uint count = steps[step_].count, at = steps[step_].readAt;
-  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
+  uint tileCount = (count + uint(kCutTile) - 1u) / uint(kCutTile);
+#ifdef FIRST_HALF
+  tileCount /= 2u;
+#endif
+  for (uint tile = gl_WorkGroupID.x; tile < tileCount; tile += gl_NumWorkGroups.x) {
     if (me < 3u) sums[me] = 0u;
     barrier();
     const uint first = tile * uint(kCutTile) + me * uint(kCutRows);

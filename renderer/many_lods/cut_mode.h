@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "experiments/base/enum_names.h"
 #include "experiments/base/settings_table.h"
 
 namespace limen::many_lods {
@@ -36,7 +37,48 @@ struct LiteralCuts {
   int edges = 1;
   static const SettingsTable<LiteralCuts>& table();
 };
-using CutMode = std::variant<IncrementalCuts, LazyCuts, BasicCuts, LiteralCuts>;
+/// Where cuts by geometry shaders start.
+enum class FeedbackStart { LastCut, Root };
+constexpr EnumNames<FeedbackStart, 2> enumNames(FeedbackStart) {
+  return {{{{FeedbackStart::LastCut, "last_cut"}, {FeedbackStart::Root, "root"}}}};
+}
+/// By geometry shaders and transform feedback (feedback_cuts.h).
+struct GeometryShaderCuts {
+  static constexpr const char *kKind = "geometry_shader",
+                              *kSummary = "to the end, by a geometry shader and transform feedback";
+  FeedbackStart start = FeedbackStart::LastCut;
+  static const SettingsTable<GeometryShaderCuts>& table();
+};
+/// The CPU walks the top of the tree, on all cores, and the GPU goes on from there.
+struct TopOnCpu {
+  static constexpr const char *kKind = "top", *kSummary = "the CPU walks the top of the tree";
+  int levels = 8;
+  static const SettingsTable<TopOnCpu>& table();
+};
+enum class CutProcessor { Gpu, Cpu, Both };
+constexpr EnumNames<CutProcessor, 3> enumNames(CutProcessor) {
+  return {{{{CutProcessor::Gpu, "gpu"}, {CutProcessor::Cpu, "cpu"}, {CutProcessor::Both, "both"}}}};
+}
+enum class CutSums { Gpu, Cpu };
+constexpr EnumNames<CutSums, 2> enumNames(CutSums) {
+  return {{{{CutSums::Gpu, "gpu"}, {CutSums::Cpu, "cpu"}}}};
+}
+/// In every step both do their part.
+struct SharedSteps {
+  static constexpr const char *kKind = "steps", *kSummary = "both do their part of every step";
+  CutProcessor events = CutProcessor::Gpu;
+  CutSums sums = CutSums::Cpu;
+  int eventTasks = 1, sumTasks = 1;
+  static const SettingsTable<SharedSteps>& table();
+};
+/// From the root, by CPU and GPU together (hybrid_cuts.h).
+struct HybridSettings {
+  static constexpr const char *kKind = "hybrid", *kSummary = "from the root, by CPU and GPU together";
+  std::variant<TopOnCpu, SharedSteps> share;
+  static const SettingsTable<HybridSettings>& table();
+};
+using CutMode =
+    std::variant<IncrementalCuts, LazyCuts, BasicCuts, LiteralCuts, GeometryShaderCuts, HybridSettings>;
 
 /// Of the tree as the mode walks it: nodes have 2^arityBitsOf() children. Those of a complete binary tree's
 /// levels between are passed over.

@@ -48,7 +48,7 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
                        const CutMode& mode)
     : mode_(mode),
       shape_(shape),
-      views_(views),
+      viewCount_(views),
       capacity_(capacity),
       arityBits_(static_cast<uint32_t>(arityBitsOf(mode))),
       ordered_(edgesOf(mode) > 0),
@@ -96,15 +96,17 @@ void ListedCuts::setShape(const gl::Program& program) const {
   program.set("arityBits", arityBits_);
 }
 
-void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counting) {
+void ListedCuts::dispatch(const gl::Program& program, uint32_t number, size_t offset) const {
+  program.set("step_", number);
+  setShape(program);
+  program.use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.id());
+  glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(CutControl) + number * sizeof(CutStep) + offset));
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+const gl::Program& ListedCuts::configure(uint32_t rule, uint32_t last, bool counting) const {
   const gl::Program& classify = *classify_[2 * rule + counting];
-  const auto run = [&](const gl::Program& program, size_t offset) {
-    program.set("step_", number);
-    setShape(program);
-    program.use();
-    glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(CutControl) + number * sizeof(CutStep) + offset));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  };
   // By one edge, or as far as a step can.
   const bool oneEdge = rule == kRuleOneEdge || rule == kRuleLiteral;
   const uint32_t levels = oneEdge ? arityBits_ : splitLevels_;
@@ -113,13 +115,16 @@ void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counti
   scan_->set("lastStep", last);
   scan_->set("always", oneEdge ? 1U : 0U);
   scan_->set("splitsEach", (1U << arityBits_) - 1U);
-  run(classify, offsetof(CutStep, classifyX));
-  run(*scan_, offsetof(CutStep, scanX));
-  run(*emit_, offsetof(CutStep, emitX));
+  return classify;
 }
 
-void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool counting) {
-  const bool fromRoot = fresh_ || std::holds_alternative<BasicCuts>(mode_);
+void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counting) {
+  dispatch(configure(rule, last, counting), number, offsetof(CutStep, classifyX));
+  dispatch(*scan_, number, offsetof(CutStep, scanX));
+  dispatch(*emit_, number, offsetof(CutStep, emitX));
+}
+
+void ListedCuts::begin(const gl::Buffer& nodes, const gl::Buffer& views, bool fromRoot) {
   nodes.bindStorage(kCutNodesBuffer);
   views.bindStorage(kCutViewsBuffer);
   list_.bindStorage(kCutListBuffer);
@@ -127,16 +132,25 @@ void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool c
   tiles_.bindStorage(kCutTilesBuffer);
   control_.bindStorage(kCutControlBuffer);
   if (shape_.links) shape_.links->bindStorage(kCutLinksBuffer);
-  const gl::Program& begin = fromRoot ? *restart_ : *begin_;
-  begin.set("viewCount", views_);
-  begin.set("regions", ordered_ ? 2U : 3U);
-  setShape(begin);
-  begin.use();
+  const gl::Program& program = fromRoot ? *restart_ : *begin_;
+  program.set("viewCount", viewCount_);
+  program.set("regions", ordered_ ? 2U : 3U);
+  setShape(program);
+  program.use();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  const uint32_t groups = fromRoot ? (views_ + kCutGroup - 1) / kCutGroup : 1U;
+  const uint32_t groups = fromRoot ? (viewCount_ + kCutGroup - 1) / kCutGroup : 1U;
   glDispatchCompute(std::clamp(groups, 1U, static_cast<uint32_t>(kMostCutGroups)), 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.id());
+}
+
+void ListedCuts::end() {
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  fresh_ = false;
+}
+
+void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool counting) {
+  const bool fromRoot = fresh_ || std::holds_alternative<BasicCuts>(mode_);
+  begin(nodes, views, fromRoot);
   if (const uint32_t edges = edgesOf(mode_); !fromRoot && edges > 0) {
     const uint32_t rule = std::holds_alternative<LazyCuts>(mode_) ? kRuleOneEdge : kRuleLiteral;
     for (uint32_t i = 0; i < edges; ++i) step(rule, i, edges - 1, counting);
@@ -144,8 +158,7 @@ void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool c
     for (uint32_t i = 0; i < fullSteps_; ++i)
       step(i == 0 && !fromRoot ? kRuleClimb : kRuleSplit, i, fullSteps_ - 1, counting);
   }
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-  fresh_ = false;
+  end();
 }
 
 }  // namespace limen::many_lods

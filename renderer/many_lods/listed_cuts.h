@@ -34,13 +34,20 @@ class ListedCuts : public CutFinder {
   const gl::Buffer& control() const override { return control_; }
   int64_t bytes() const override;
 
- private:
-  void step(uint32_t rule, uint32_t number, uint32_t last, bool counting);
-  void setShape(const gl::Program& program) const;
+ protected:
+  /// One step; `rule` as kRule...
+  virtual void step(uint32_t rule, uint32_t number, uint32_t last, bool counting);
+  /// Binds what steps need, and starts a frame with the roots or with the list as it is.
+  void begin(const gl::Buffer& nodes, const gl::Buffer& views, bool fromRoot);
+  void end();
+  /// A part of a step, `offset` being that of its arguments in CutStep.
+  void dispatch(const gl::Program& program, uint32_t number, size_t offset) const;
+  /// Sets how far a step of a rule goes and when steps end, and returns the program that finds its events.
+  const gl::Program& configure(uint32_t rule, uint32_t last, bool counting) const;
 
   CutMode mode_;
   TreeShape shape_;
-  uint32_t views_, capacity_, arityBits_;
+  uint32_t viewCount_, capacity_, arityBits_;
   bool ordered_;          // lazy cuts
   uint32_t splitLevels_;  // of a step that goes as far as it can
   uint32_t fullSteps_;
@@ -48,6 +55,9 @@ class ListedCuts : public CutFinder {
   gl::Buffer list_, codes_, tiles_, control_;
   const gl::Program *restart_, *begin_, *scan_, *emit_;
   std::vector<const gl::Program*> classify_;  // by rule, then with counting
+
+ private:
+  void setShape(const gl::Program& program) const;
 };
 
 }  // namespace limen::many_lods

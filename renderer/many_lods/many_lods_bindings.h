@@ -45,6 +45,10 @@ const uint kCodeClimbShift = 8u;
 const uint kCodeDropped = 0x80000000u;
 const int kMostSplitLevels = 5;
 
+// Cuts by geometry shaders.
+const uint kFeedbackNodesUnit = 0u;
+const uint kFeedbackViewsUnit = 1u;
+
 const int kCutGroup = 256;
 const int kCutRows = 4;  // entries of an invocation
 const int kCutTile = kCutGroup * kCutRows;

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "experiments/base/error.h"
+#include "renderer/many_lods/feedback_cuts.h"
+#include "renderer/many_lods/hybrid_cuts.h"
 #include "renderer/many_lods/listed_cuts.h"
 
 namespace limen::many_lods {
@@ -22,6 +24,10 @@ std::unique_ptr<CutFinder> finderFor(gl::Context& context, uint32_t views, const
     throw Error("a tree of " + std::to_string(shape.height) + " levels has no whole number of levels with " +
                     std::to_string(1 << bits) + " children to a node",
                 "levels", "choose a multiple of " + std::to_string(bits));
+  if (const auto* feedback = std::get_if<GeometryShaderCuts>(&mode))
+    return std::make_unique<FeedbackCuts>(context, views, shape, capacity, *feedback);
+  if (const auto* hybrid = std::get_if<HybridSettings>(&mode))
+    return std::make_unique<HybridCuts>(context, views, shape, capacity, *hybrid);
   return std::make_unique<ListedCuts>(context, views, shape, capacity, mode);
 }
 

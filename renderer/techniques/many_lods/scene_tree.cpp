@@ -115,6 +115,7 @@ void TreeLight::make(frame::Frame& frame, const many_lods::GpuTree& tree) const 
 std::vector<Counter> cutCounters(const many_lods::CutControl& control, uint32_t views,
                                  const SceneTree& tree) {
   return {{"cut_nodes", double(control.count)},  {"cut_nodes_per_view", double(control.count) / views},
+          {"points", double(1U << tree.tree().depth())},
           {"predicates", double(control.tests)}, {"splits", double(control.splits)},
           {"merges", double(control.merges)},    {"refused_splits", double(control.refused)},
           {"tree_build_ms", tree.buildMs()}};
@@ -124,6 +125,7 @@ std::vector<Quantity> cutQuantities() {
   const Direction lower = Direction::LowerIsBetter;
   return {{"cut_nodes", "Nodes of all cuts", "", lower},
           {"cut_nodes_per_view", "Nodes of a cut", "", lower},
+          {"points", "Points of the tree", "", Direction::Neither},
           {"predicates", "Nodes tested in a frame", "", lower},
           {"splits", "Nodes split in a frame", "", lower},
           {"merges", "Pairs merged in a frame", "", lower},

@@ -63,11 +63,11 @@ TEST_F(MultiCuts, FaultsAreFound) {
   EXPECT_EQ(faultsOf({{1, 1}}, 2, 3).uncovered, 8U);
 }
 
-TEST_F(MultiCuts, OfThousandsOfViewsEqualTheRecursion) {
+TEST_F(MultiCuts, OfTenThousandViewsEqualTheRecursion) {
   const GpuTree onGpu(context(), tree());
-  constexpr uint32_t kViews = 2500;
-  MultiCut basic(context(), kViews, kDepth, 1U << 20, BasicCuts{});
-  MultiCut incremental(context(), kViews, kDepth, 1U << 20, IncrementalCuts{});
+  constexpr uint32_t kViews = 10000;
+  MultiCut basic(context(), kViews, kDepth, 1U << 22, BasicCuts{});
+  MultiCut incremental(context(), kViews, kDepth, 1U << 22, IncrementalCuts{});
   std::vector<CutView> views = anyViews(kViews, 1);
   for (int frame = 0; frame < 4; ++frame) {
     const gl::Buffer onGpuViews(views);
@@ -199,6 +199,56 @@ TEST_F(MultiCuts, DoNotDependOnTheLevelsOfAStep) {
       views = moved(views, 600 + uint32_t(frame), 0.3);
     }
   }
+}
+
+TEST_F(MultiCuts, ByGeometryShaderEqualTheRecursion) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 200;
+  for (const FeedbackStart start : {FeedbackStart::LastCut, FeedbackStart::Root}) {
+    MultiCut cut(context(), kViews, kDepth, 1U << 18, GeometryShaderCuts{start});
+    std::vector<CutView> views = anyViews(kViews, 7);
+    for (int frame = 0; frame < 4; ++frame) {
+      cut.update(onGpu.nodes(), gl::Buffer(views));
+      ASSERT_EQ(sorted(cut.list()), sorted(expected(views))) << toText(start) << ", frame " << frame;
+      EXPECT_EQ(cut.control().refused, 0U);
+      views = moved(views, 700 + uint32_t(frame), 0.3);
+    }
+  }
+}
+
+TEST_F(MultiCuts, SharedByCpuAndGpuEqualTheRecursion) {
+  const GpuTree onGpu(context(), tree());
+  constexpr uint32_t kViews = 200;
+  std::vector<HybridSettings> forms;
+  for (const int levels : {0, 5, kDepth, 16}) forms.push_back({TopOnCpu{levels}});
+  for (const CutProcessor events : {CutProcessor::Gpu, CutProcessor::Cpu, CutProcessor::Both})
+    for (const CutSums sums : {CutSums::Gpu, CutSums::Cpu})
+      for (const int tasks : {1, 4}) forms.push_back({SharedSteps{events, sums, tasks, tasks}});
+  for (const HybridSettings& form : forms) {
+    MultiCut cut(context(), kViews, kDepth, 1U << 18, form);
+    std::vector<CutView> views = anyViews(kViews, 8);
+    for (int frame = 0; frame < 2; ++frame) {
+      cut.update(onGpu.nodes(), gl::Buffer(views));
+      ASSERT_EQ(sorted(cut.list()), sorted(expected(views)));
+      EXPECT_EQ(cut.control().refused, 0U);
+      views = moved(views, 800 + uint32_t(frame), 0.3);
+    }
+    // Without room cuts are coarser, and nothing is lost.
+    MultiCut small(context(), kViews, kDepth, 3000, form);
+    small.update(onGpu.nodes(), gl::Buffer(views));
+    expectWhole(small.list(), kViews);
+    EXPECT_LE(small.list().size(), 3000U);
+    EXPECT_GT(small.control().refused, 0U);
+  }
+}
+
+// Transform feedback drops what it has no room for; that is on record.
+TEST_F(MultiCuts, ByGeometryShaderSayWhenEntriesAreLost) {
+  const GpuTree onGpu(context(), tree());
+  MultiCut cut(context(), 100, kDepth, 5000, GeometryShaderCuts{});
+  cut.update(onGpu.nodes(), gl::Buffer(anyViews(100, 4)));
+  EXPECT_EQ(cut.control().refused, 1U);
+  EXPECT_LE(cut.list().size(), 5000U);
 }
 
 TEST_F(MultiCuts, RefuseListsWithoutRoomForTheRoots) {

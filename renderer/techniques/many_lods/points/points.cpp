@@ -142,7 +142,7 @@ class AdaptivePoints : public Technique {
 
 const RegisteredTechnique<AdaptivePoints> kPointsRegistered{
     {.name = "many_lods/points",
-     .version = 1,
+     .version = 2,
      .summary = "The scene as points whose density follows their size on the screen, from a tree of spheres",
      .source = "Holländer 2013, sections 3.5 and 3.6 (HOL-33)",
      .product = ProductKind::Colour,
