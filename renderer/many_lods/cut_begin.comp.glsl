@@ -13,7 +13,7 @@ void main() {
     list[i] = uvec2(kRootNode, i);
 #endif
   if (gl_WorkGroupID.x > 0u) return;
-  const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+  const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
   for (uint i = gl_LocalInvocationIndex + 1u; i < uint(kMostCutSteps); i += uint(kCutGroup)) steps[i] = none;
   if (gl_LocalInvocationIndex > 0u) return;
 #ifdef RESTART

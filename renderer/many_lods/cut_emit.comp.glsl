@@ -12,28 +12,7 @@ uniform uint splitLevels;
 
 shared uvec3 line[kCutGroup];
 
-uint climbed(uint node, uint levels) {
-  for (uint i = 0u; i < levels; ++i) node = parentOf(node);
-  return node;
-}
-
-// The largest part of a split that takes no more than `room`: without the last nodes of the deepest level, and so on up.
-uint within(uint splits, uint room) {
-  uint levels = splitLevels;
-  while (uint(bitCount(splits)) > room) {
-    levels -= arityBits;
-    const uint first = 1u << levels;
-    while (uint(bitCount(splits)) > room) {
-      const uint here = splits >> (first - 1u) & ((1u << first) - 1u);
-      if (here == 0u) break;
-      // A node of this level and all between it and its children.
-      const uint place = first + uint(findMSB(here));
-      for (uint below = 0u; below < arityBits; ++below)
-        splits &= ~(((1u << (1u << below)) - 1u) << ((place << below) - 1u));
-    }
-  }
-  return splits;
-}
+#include "renderer/many_lods/cut_splits.glsl"
 
 void main() {
   const uint me = gl_LocalInvocationIndex;
@@ -74,7 +53,7 @@ void main() {
       const uint room = now.budget - min(now.budget, at.y);
       at += uvec3(1u, bitCount(splits), left);
       if (splits == 0u) {
-        list[to] = uvec2(climbed(entry.x, code >> kCodeClimbShift), view | kEntryDone);
+        list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view | kEntryDone);
         continue;
       }
       // Parents come before children: what remains of the splits is a subtree.

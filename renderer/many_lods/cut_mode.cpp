@@ -20,7 +20,9 @@ const SettingsTable<S>& stepsTable() {
                                            {1, kMostSplitLevels},
                                            "",
                                            "Levels of the tree by which an entry is split at once: fewer steps, "
-                                           "more work for one invocation"}};
+                                           "more work for one invocation"},
+                                          {&S::order, "order",
+                                           "Order of the list: free in one dispatch a step, or kept, in three"}};
   return kTable;
 }
 

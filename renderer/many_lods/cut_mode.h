@@ -8,11 +8,20 @@
 
 namespace limen::many_lods {
 
+/// Whether a list's order depends on nothing but the input.
+enum class CutOrder {
+  Free,  ///< a dispatch a step; where a list has no room, chance decides whose splits are refused
+  Kept   ///< three dispatches a step
+};
+constexpr EnumNames<CutOrder, 2> enumNames(CutOrder) {
+  return {{{{CutOrder::Free, "free"}, {CutOrder::Kept, "kept"}}}};
+}
 /// From the root in every frame. Source: Holländer 2013, section 3.5.2.
 struct BasicCuts {
   static constexpr const char *kKind = "basic", *kSummary = "from the root in every frame";
   int arity = 2;
   int stepLevels = 3;
+  CutOrder order = CutOrder::Free;
   static const SettingsTable<BasicCuts>& table();
 };
 /// From the cut of the frame before, until every node is right.
@@ -20,6 +29,7 @@ struct IncrementalCuts {
   static constexpr const char *kKind = "incremental", *kSummary = "from the last frame's cut, to the end";
   int arity = 2;
   int stepLevels = 3;
+  CutOrder order = CutOrder::Free;
   static const SettingsTable<IncrementalCuts>& table();
 };
 /// From the cut of the frame before, by a few edges of the tree.

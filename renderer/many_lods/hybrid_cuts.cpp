@@ -42,7 +42,7 @@ uint32_t groupsOf(uint32_t count, uint32_t each) {
 
 HybridCuts::HybridCuts(gl::Context& context, uint32_t views, const TreeShape& shape, uint32_t capacity,
                        const HybridSettings& settings)
-    : ListedCuts(context, views, shape, capacity, BasicCuts{}),
+    : ListedCuts(context, views, shape, capacity, BasicCuts{.order = CutOrder::Kept}),
       settings_(settings),
       firstHalf_(&context.programs().compute("renderer/many_lods/cut_classify.comp.glsl",
                                              {{"RULE", "0"}, {"FIRST_HALF", "1"}})) {

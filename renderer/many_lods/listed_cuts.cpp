@@ -23,6 +23,12 @@ uint32_t edgesOf(const CutMode& mode) {
   return 0;
 }
 
+bool isFree(const CutMode& mode) {
+  if (const auto* basic = std::get_if<BasicCuts>(&mode)) return basic->order == CutOrder::Free;
+  if (const auto* incremental = std::get_if<IncrementalCuts>(&mode)) return incremental->order == CutOrder::Free;
+  return false;
+}
+
 /// A whole number of nodes' levels.
 uint32_t splitLevelsOf(const CutMode& mode) {
   const int arityBits = arityBitsOf(mode);
@@ -52,13 +58,14 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       capacity_(capacity),
       arityBits_(static_cast<uint32_t>(arityBitsOf(mode))),
       ordered_(edgesOf(mode) > 0),
+      free_(isFree(mode)),
       splitLevels_(splitLevelsOf(mode)),
       // Leaves of a tree that is not complete are left over as well.
       fullSteps_(std::max((static_cast<uint32_t>(shape.height) + splitLevels_ - 1) / splitLevels_, 1U) +
                  (shape.links ? 1U : 0U)),
       list_(cutStorage((ordered_ ? 2 : 3) * kListEntryBytes * capacity)),
-      codes_(cutStorage(4 * int64_t{kCutTile} * tilesFor(capacity))),
-      tiles_(16 * int64_t{tilesFor(capacity)}, nullptr),
+      codes_(cutStorage(free_ ? 0 : 4 * int64_t{kCutTile} * tilesFor(capacity))),
+      tiles_(free_ ? 0 : 16 * int64_t{tilesFor(capacity)}, nullptr),
       control_(sizeof(CutControl) + kMostCutSteps * int64_t{sizeof(CutStep)}, nullptr) {
   gl::ProgramCache& cache = context.programs();
   const std::string folder = "renderer/many_lods/";
@@ -82,7 +89,7 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       gl::ShaderDefines own = defines;
       own["RULE"] = std::to_string(rule);
       if (counting) own["COUNTING"] = "1";
-      classify_.push_back(&cache.compute(folder + "cut_classify.comp.glsl", own));
+      classify_.push_back(&cache.compute(folder + (free_ ? "cut_step.comp.glsl" : "cut_classify.comp.glsl"), own));
     }
 }
 
@@ -112,14 +119,17 @@ const gl::Program& ListedCuts::configure(uint32_t rule, uint32_t last, bool coun
   const uint32_t levels = oneEdge ? arityBits_ : splitLevels_;
   classify.set("splitLevels", levels);
   emit_->set("splitLevels", levels);
-  scan_->set("lastStep", last);
   scan_->set("always", oneEdge ? 1U : 0U);
-  scan_->set("splitsEach", (1U << arityBits_) - 1U);
+  for (const gl::Program* program : {scan_, &classify}) {
+    program->set("splitsEach", (1U << arityBits_) - 1U);
+    program->set("lastStep", last);
+  }
   return classify;
 }
 
 void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counting) {
   dispatch(configure(rule, last, counting), number, offsetof(CutStep, classifyX));
+  if (free_) return;
   dispatch(*scan_, number, offsetof(CutStep, scanX));
   dispatch(*emit_, number, offsetof(CutStep, emitX));
 }

@@ -14,8 +14,10 @@ namespace limen::many_lods {
 /// A buffer of storage; throws Error if the device does not allow one of that size.
 gl::Buffer cutStorage(int64_t bytes);
 
-/// Cuts by compute. Each step classifies entries, sums up over tiles of the list, and writes what becomes of
-/// them in their order; it is dispatched indirectly by what the step before left, and nothing is read back.
+/// Cuts by compute. A step says what becomes of entries and writes that; it is dispatched indirectly by what
+/// the step before left, and nothing is read back. CutOrder::Free: in one dispatch, whose groups take room for
+/// what they write by atomic additions. Kept: in three (events, sums over tiles of the list, writing), so that
+/// entries stay in their order.
 ///
 /// Basic and incremental cuts: what is finished is written once, behind what earlier steps have finished;
 /// only entries that a step has split as far as it goes are left over for the next one. So the list of a
@@ -49,12 +51,13 @@ class ListedCuts : public CutFinder {
   TreeShape shape_;
   uint32_t viewCount_, capacity_, arityBits_;
   bool ordered_;          // lazy cuts
+  bool free_;             // a dispatch a step
   uint32_t splitLevels_;  // of a step that goes as far as it can
   uint32_t fullSteps_;
   bool fresh_ = true;
   gl::Buffer list_, codes_, tiles_, control_;
   const gl::Program *restart_, *begin_, *scan_, *emit_;
-  std::vector<const gl::Program*> classify_;  // by rule, then with counting
+  std::vector<const gl::Program*> classify_;  // by rule, then with counting; a whole step where order is free
 
  private:
   void setShape(const gl::Program& program) const;

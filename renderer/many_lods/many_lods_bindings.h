@@ -68,6 +68,8 @@ struct CutStep {                         // std430
   uint finishedAt;  // first entry of the list that becomes the frame's
   uint finished;    // entries that are there already
   uint leftAt;      // where it writes what the next step has to look at
+  // Of steps in one dispatch, so far: splits asked for, entries finished and left over, groups that are done.
+  uint asked, made, left, groupsDone;
 };
 struct CutControl {          // std430; followed by the steps
   uint drawX, drawY, drawZ;  // indirect arguments of a dispatch over the list, in groups of kSplatGroup
@@ -80,7 +82,7 @@ struct CutControl {          // std430; followed by the steps
   uint unused0, unused1, unused2, unused3, unused4, unused5;
 };
 #ifdef __cplusplus
-static_assert(sizeof(CutStep) == 64 && sizeof(CutControl) == 64 && offsetof(CutStep, scanX) == 12 &&
+static_assert(sizeof(CutStep) == 80 && sizeof(CutControl) == 64 && offsetof(CutStep, scanX) == 12 &&
               offsetof(CutStep, emitX) == 24);
 #endif
 

@@ -123,7 +123,8 @@ TEST_F(MultiCuts, TheListingAsPrintedBreaksTheCut) {
 TEST_F(MultiCuts, OverfullListsLoseNothing) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 100;
-  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2})})
+  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2}),
+                              CutMode(BasicCuts{2, 3, CutOrder::Kept}), CutMode(IncrementalCuts{2, 3, CutOrder::Kept})})
     for (const uint32_t capacity : {kViews, 1024U, 5000U}) {
       MultiCut cut(context(), kViews, kDepth, capacity, mode);
       std::vector<CutView> views = anyViews(kViews, 4);
@@ -181,12 +182,14 @@ TEST_F(MultiCuts, SmallestTreesAndOneView) {
 }
 
 // However far a step goes, and whatever it leaves over for the next one.
-TEST_F(MultiCuts, DoNotDependOnTheLevelsOfAStep) {
+TEST_F(MultiCuts, DoNotDependOnTheLevelsOfAStepOrTheOrder) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 200;
-  for (const int levels : {1, 2, 3, 4, 5}) {
-    MultiCut basic(context(), kViews, kDepth, 1U << 18, BasicCuts{2, levels});
-    MultiCut incremental(context(), kViews, kDepth, 1U << 18, IncrementalCuts{2, levels});
+  for (const auto& [levels, order] : std::vector<std::pair<int, CutOrder>>{
+           {1, CutOrder::Free}, {2, CutOrder::Free}, {3, CutOrder::Free}, {4, CutOrder::Free}, {5, CutOrder::Free},
+           {1, CutOrder::Kept}, {3, CutOrder::Kept}, {5, CutOrder::Kept}}) {
+    MultiCut basic(context(), kViews, kDepth, 1U << 18, BasicCuts{2, levels, order});
+    MultiCut incremental(context(), kViews, kDepth, 1U << 18, IncrementalCuts{2, levels, order});
     std::vector<CutView> views = anyViews(kViews, 6);
     for (int frame = 0; frame < 5; ++frame) {
       const gl::Buffer onGpuViews(views);
