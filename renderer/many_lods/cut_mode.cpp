@@ -9,32 +9,34 @@
 namespace limen::many_lods {
 namespace {
 
-constexpr const char *kArityText = "Children of a node: of 4 and 8 every second and third level of the tree is one",
-                      *kAritySource = "Holländer 2013, section 3.8";
+constexpr const char *kArityText =
+                         "Children of a node: of 4 and 8 every second and third level of the tree is one",
+                     *kAritySource = "Holländer 2013, section 3.8";
 
 template <class S>
 const SettingsTable<S>& stepsTable() {
-  static const SettingsTable<S> kTable = {{&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
-                                          {&S::stepLevels,
-                                           "step_levels",
-                                           {1, kMostSplitLevels},
-                                           "",
-                                           "Levels of the tree by which an entry is split at once: fewer steps, "
-                                           "more work for one invocation"},
-                                          {&S::order, "order",
-                                           "Order of the list: free in one dispatch a step, or kept, in three"}};
+  static const SettingsTable<S> kTable = {
+      {&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+      {&S::stepLevels,
+       "step_levels",
+       {1, kMostSplitLevels},
+       "",
+       "Levels of the tree by which an entry is split at once: fewer steps, "
+       "more work for one invocation"},
+      {&S::order, "order", "Order of the list: free in one dispatch a step, or kept, in three"}};
   return kTable;
 }
 
 template <class S>
 const SettingsTable<S>& edgesTable() {
-  static const SettingsTable<S> kTable = {{&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
-                                          {&S::edges,
-                                           "edges",
-                                           {1, 24},
-                                           "",
-                                           "Edges of the tree by which an entry may move in a frame",
-                                           "Holländer 2013, section 3.5.2 (q)"}};
+  static const SettingsTable<S> kTable = {
+      {&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+      {&S::edges,
+       "edges",
+       {1, 24},
+       "",
+       "Edges of the tree by which an entry may move in a frame",
+       "Holländer 2013, section 3.5.2 (q)"}};
   return kTable;
 }
 
@@ -67,7 +69,12 @@ const SettingsTable<SharedSteps>& SharedSteps::table() {
   static const SettingsTable<S> kTable = {
       {&S::events, "events", "Who says what becomes of each entry", kSource},
       {&S::sums, "sums", "Who sums up where entries go", kSource},
-      {&S::eventTasks, "event_tasks", {1, 16}, "", "Parts in which the CPU reads, finds and writes back events", kSource},
+      {&S::eventTasks,
+       "event_tasks",
+       {1, 16},
+       "",
+       "Parts in which the CPU reads, finds and writes back events",
+       kSource},
       {&S::sumTasks, "sum_tasks", {1, 16}, "", "Parts in which the CPU reads and writes back sums", kSource}};
   return kTable;
 }

@@ -25,9 +25,10 @@ void checkTexels(int64_t texels) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
   if (texels > most)
-    throw Error("geometry shaders read the tree and the views from buffer textures, of which this device allows " +
-                    std::to_string(most) + " texels; " + std::to_string(texels) + " are needed",
-                "cuts", "lower 'levels' or the number of views, or choose other cuts");
+    throw Error(
+        "geometry shaders read the tree and the views from buffer textures, of which this device allows " +
+            std::to_string(most) + " texels; " + std::to_string(texels) + " are needed",
+        "cuts", "lower 'levels' or the number of views, or choose other cuts");
 }
 
 }  // namespace

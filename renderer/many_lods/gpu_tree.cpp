@@ -17,7 +17,8 @@ GpuTree::GpuTree(gl::Context& context, const SphereTree& tree)
       cones_(tree.cones),
       samples_(tree.samples) {
   if (!tree.links.empty()) links_.emplace(tree.links);
-  const std::string path = std::string("renderer/many_lods/") + (links_ ? "update_linked_tree" : "update_tree");
+  const std::string path =
+      std::string("renderer/many_lods/") + (links_ ? "update_linked_tree" : "update_tree");
   for (const bool leaves : {false, true})
     for (const bool cones : {false, true}) {
       gl::ShaderDefines defines;

@@ -47,25 +47,28 @@ HybridCuts::HybridCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       firstHalf_(&context.programs().compute("renderer/many_lods/cut_classify.comp.glsl",
                                              {{"RULE", "0"}, {"FIRST_HALF", "1"}})) {
   if (shape.links)
-    throw Error("cuts that CPU and GPU share are of complete trees", "cuts", "choose other cuts, or a balanced tree");
+    throw Error("cuts that CPU and GPU share are of complete trees", "cuts",
+                "choose other cuts, or a balanced tree");
 }
 
-void HybridCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool counting) {
+// What the CPU tests is not counted, so that neither is what the GPU does.
+void HybridCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool) {
   views_ = views.read<CutView>(0, int64_t{viewCount_});
   if (const auto* top = std::get_if<TopOnCpu>(&settings_.share)) {
-    const uint32_t levels = std::min(static_cast<uint32_t>(top->levels), static_cast<uint32_t>(shape_.height));
+    const uint32_t levels =
+        std::min(static_cast<uint32_t>(top->levels), static_cast<uint32_t>(shape_.height));
     nodes_ = nodes.read<glm::vec4>(0, int64_t{2} << levels);
     const bool whole = writeTop(levels);
     begin(nodes, views, false);
     const uint32_t left = static_cast<uint32_t>(shape_.height) - (whole ? levels : 0);
     // What the CPU has found is looked at once more, by the first of them.
     const uint32_t steps = std::max((left + splitLevels_ - 1) / splitLevels_, 1U);
-    for (uint32_t i = 0; i < steps; ++i) ListedCuts::step(kRuleSplit, i, steps - 1, counting);
+    for (uint32_t i = 0; i < steps; ++i) ListedCuts::step(kRuleSplit, i, steps - 1, false);
     end();
     return;
   }
   if (std::get<SharedSteps>(settings_.share).events != CutProcessor::Gpu) nodes_ = nodes.read<glm::vec4>();
-  ListedCuts::update(nodes, views, counting);
+  ListedCuts::update(nodes, views, false);
 }
 
 bool HybridCuts::writeTop(uint32_t levels) {
@@ -129,8 +132,8 @@ void HybridCuts::findEvents(const CutStep& now, uint32_t firstTile, uint32_t end
     const uint32_t from = bound(task), to = bound(task + 1);
     if (from == to) continue;
     const uint32_t first = from * kCutTile, end = std::min(to * uint32_t{kCutTile}, now.count);
-    const std::vector<glm::uvec2> list =
-        list_.read<glm::uvec2>(int64_t{sizeof(glm::uvec2)} * (int64_t{now.readAt} + first), int64_t{end} - first);
+    const std::vector<glm::uvec2> list = list_.read<glm::uvec2>(
+        int64_t{sizeof(glm::uvec2)} * (int64_t{now.readAt} + first), int64_t{end} - first);
     std::vector<uint32_t> codes(size_t{to - from} * kCutTile, kCodeDropped);
     std::vector<glm::uvec4> sums(to - from, glm::uvec4(0));
     pool_.run(to - from, [&](uint32_t tile) {

@@ -9,11 +9,11 @@
 
 namespace limen::many_lods {
 
-/// Basic cuts that CPU and GPU share. Views and nodes are on the GPU, so that the CPU waits for them and reads
-/// them back in every frame, and what it finds is uploaded: this is the form's cost, and timed. The cuts are
-/// those of BasicCuts. Of complete binary trees. Source: Holländer 2013, section 3.7.3, table 3.4: events
-/// (what becomes of an entry) and sums, on either side, in one or several tasks; the split by levels is the
-/// bench's own.
+/// Basic cuts that CPU and GPU share. Views and nodes are on the GPU, so that the CPU waits for them and
+/// reads them back in every frame, and what it finds is uploaded: this is the form's cost, and timed. The
+/// cuts are those of BasicCuts. Of complete binary trees. Source: Holländer 2013, section 3.7.3, table 3.4:
+/// events (what becomes of an entry) and sums, on either side, in one or several tasks; the split by levels
+/// is the bench's own.
 class HybridCuts : public ListedCuts {
  public:
   HybridCuts(gl::Context& context, uint32_t views, const TreeShape& shape, uint32_t capacity,

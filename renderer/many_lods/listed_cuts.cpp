@@ -25,7 +25,8 @@ uint32_t edgesOf(const CutMode& mode) {
 
 bool isFree(const CutMode& mode) {
   if (const auto* basic = std::get_if<BasicCuts>(&mode)) return basic->order == CutOrder::Free;
-  if (const auto* incremental = std::get_if<IncrementalCuts>(&mode)) return incremental->order == CutOrder::Free;
+  if (const auto* incremental = std::get_if<IncrementalCuts>(&mode))
+    return incremental->order == CutOrder::Free;
   return false;
 }
 
@@ -89,7 +90,8 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       gl::ShaderDefines own = defines;
       own["RULE"] = std::to_string(rule);
       if (counting) own["COUNTING"] = "1";
-      classify_.push_back(&cache.compute(folder + (free_ ? "cut_step.comp.glsl" : "cut_classify.comp.glsl"), own));
+      classify_.push_back(
+          &cache.compute(folder + (free_ ? "cut_step.comp.glsl" : "cut_classify.comp.glsl"), own));
     }
 }
 

@@ -15,9 +15,9 @@ namespace limen::many_lods {
 gl::Buffer cutStorage(int64_t bytes);
 
 /// Cuts by compute. A step says what becomes of entries and writes that; it is dispatched indirectly by what
-/// the step before left, and nothing is read back. CutOrder::Free: in one dispatch, whose groups take room for
-/// what they write by atomic additions. Kept: in three (events, sums over tiles of the list, writing), so that
-/// entries stay in their order.
+/// the step before left, and nothing is read back. CutOrder::Free: in one dispatch, whose groups take room
+/// for what they write by atomic additions. Kept: in three (events, sums over tiles of the list, writing), so
+/// that entries stay in their order.
 ///
 /// Basic and incremental cuts: what is finished is written once, behind what earlier steps have finished;
 /// only entries that a step has split as far as it goes are left over for the next one. So the list of a

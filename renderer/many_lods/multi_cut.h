@@ -26,8 +26,8 @@ namespace limen::many_lods {
 /// sections 3.5.2 and 3.5.3; exact merge and budget are the bench's own.
 class MultiCut {
  public:
-  /// `capacity`: of the list, entries, >= views. Throws Error if the device cannot hold it, or the mode has no
-  /// form for such a tree.
+  /// `capacity`: of the list, entries, >= views. Throws Error if the device cannot hold it, or the mode has
+  /// no form for such a tree.
   MultiCut(gl::Context& context, uint32_t views, const TreeShape& shape, uint32_t capacity,
            const CutMode& mode);
   /// Of a complete binary tree.

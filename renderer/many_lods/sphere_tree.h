@@ -50,8 +50,8 @@ struct SphereTree {
   /// the places of the leaves' nodes, and the first node of each level, then the number of nodes' places.
   std::vector<TreeLink> links;
   std::vector<uint32_t> levelFirst;
-  float leafRadius = 0.0F;             ///< world units
-  double area = 0.0;                   ///< of the surface
+  float leafRadius = 0.0F;  ///< world units
+  double area = 0.0;        ///< of the surface
 
   uint32_t leafCount() const { return 1U << depth; }
   /// Edges from the root to the farthest leaf.
@@ -66,7 +66,8 @@ SphereTree buildSphereTree(const std::vector<glm::dvec3>& positions, const std::
 /// Spheres and cones of the inner nodes from those of the leaves; heights of linked ones.
 void mergeUpwards(SphereTree& tree);
 
-/// For those that build trees: radius of leaves, room for all nodes; a leaf at a point, relative to the anchor.
+/// For those that build trees: radius of leaves, room for all nodes; a leaf at a point, relative to the
+/// anchor.
 void prepareLeaves(SphereTree& tree, const std::vector<glm::dvec3>& positions,
                    const std::vector<glm::uvec3>& triangles, double leafScale);
 void setLeaf(SphereTree& tree, uint32_t node, glm::dvec3 point, uint32_t triangle,

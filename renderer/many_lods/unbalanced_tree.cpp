@@ -93,15 +93,17 @@ class LeastVolumeSplitter {
 
 }  // namespace
 
-SphereTree buildUnbalancedTree(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
-                               glm::dvec3 anchor, const TreeBuildSettings& settings) {
+SphereTree buildUnbalancedTree(const std::vector<glm::dvec3>& positions,
+                               const std::vector<glm::uvec3>& triangles, glm::dvec3 anchor,
+                               const TreeBuildSettings& settings) {
   SphereTree tree;
   tree.depth = settings.depth;
   const uint32_t leaves = tree.leafCount();
   const std::vector<SurfaceSample> samples = sampleSurface(positions, triangles, leaves, settings.seed);
   std::vector<glm::dvec3> points;
   points.reserve(leaves);
-  for (const SurfaceSample& sample : samples) points.push_back(positionOf(sample, positions, triangles) - anchor);
+  for (const SurfaceSample& sample : samples)
+    points.push_back(positionOf(sample, positions, triangles) - anchor);
   std::vector<uint32_t> order(leaves);
   std::iota(order.begin(), order.end(), 0U);
 

@@ -19,7 +19,8 @@ class ValueTree {
   /// uvec2 for each node: packHalf2x16 of the first and the last two. Leaf i of a complete tree is element
   /// 2^depth + i.
   const gl::Buffer& values() const { return values_; }
-  /// From the leaves up. Binds storage buffer 0, and 6 of a tree that is not complete. Issues barriers for storage before and after.
+  /// From the leaves up. Binds storage buffer 0, and 6 of a tree that is not complete. Issues barriers for
+  /// storage before and after.
   void average() const;
 
  private:

@@ -42,7 +42,8 @@ Scene buildMovingHerd(const MovingHerdSettings& settings) {
   const int aside = static_cast<int>(std::ceil(std::sqrt(double(settings.animals))));
   const int groups = std::min(settings.groups, settings.animals);
   const double extent = kAnimalPitch * aside;
-  addGround(scene, 1.5 * extent + 4.0);
+  const double reach = 0.6 * extent + 2.5;
+  addGround(scene, 2.6 * reach);
   const Mesh figure = statue(settings.tessellation);
   Random random(settings.seed);
   std::vector<Mesh> herds(static_cast<size_t>(groups));
@@ -62,11 +63,11 @@ Scene buildMovingHerd(const MovingHerdSettings& settings) {
                   .travel = 0.6 * glm::dvec3(std::cos(towards), 0.0, std::sin(towards)),
                   .periodS = random.uniform(2.0, 5.0)});
   }
-  scene.lights = {lightTowards({-0.8 * extent, 1.2 * extent + 4.0, 0.9 * extent}, glm::dvec3(0.0),
-                               glm::dvec2(0.1 * extent))};
-  const double reach = 0.6 * extent + 2.5;
-  setMovingCamera(scene, {{0.0, 1.0 + 0.15 * extent, reach}, {0.0, 0.3, 0.0}, {0.0, 1.0, 0.0}, 40.0},
-                  {{0.5 * reach, 1.2 + 0.1 * extent, 0.7 * reach}, {0.0, 0.4, 0.0}, {0.0, 1.0, 0.0}, 40.0}, 4.0);
+  scene.lights = {lightTowards({-1.2 * extent - 1.0, 0.8 * extent + 2.5, 1.1 * extent}, glm::dvec3(0.0),
+                               glm::dvec2(0.2 * extent + 0.4))};
+  // From above, so that the ground fills the picture.
+  setMovingCamera(scene, {{0.0, 1.6 * reach, 0.8 * reach}, {0.0, 0.3, 0.0}, {0.0, 1.0, 0.0}, 40.0},
+                  {{0.6 * reach, 1.4 * reach, 0.5 * reach}, {0.0, 0.3, 0.0}, {0.0, 1.0, 0.0}, 40.0}, 4.0);
   return scene;
 }
 

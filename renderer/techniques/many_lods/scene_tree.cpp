@@ -72,8 +72,7 @@ uint32_t CutLimits::capacity(uint32_t views) const {
   return static_cast<uint32_t>(entries);
 }
 
-SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings, bool balanced)
-    : settings_(settings) {
+SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings, bool balanced) : settings_(settings) {
   const auto start = std::chrono::steady_clock::now();
   const scene::Scene& scene = frame.scene();
   const auto build = balanced ? &many_lods::buildSphereTree : &many_lods::buildUnbalancedTree;
@@ -93,8 +92,9 @@ void SceneTree::update(frame::Frame& frame) const {
 
 TreeLight::TreeLight(frame::Frame& frame, const many_lods::GpuTree& tree, const frame::ShadedSetting& shading)
     : shading_(shading),
-      program_(frame.context().programs().compute("renderer/techniques/many_lods/leaf_colours.comp.glsl",
-                                                  leafDefines(shading, frame, tree.shape().links != nullptr))),
+      program_(
+          frame.context().programs().compute("renderer/techniques/many_lods/leaf_colours.comp.glsl",
+                                             leafDefines(shading, frame, tree.shape().links != nullptr))),
       values_(frame.context(), tree) {
   frame.passes().setBytesHeld(kLightPass, values_.values().bytes());
 }
@@ -114,11 +114,18 @@ void TreeLight::make(frame::Frame& frame, const many_lods::GpuTree& tree) const 
 
 std::vector<Counter> cutCounters(const many_lods::CutControl& control, uint32_t views,
                                  const SceneTree& tree) {
-  return {{"cut_nodes", double(control.count)},  {"cut_nodes_per_view", double(control.count) / views},
-          {"points", double(1U << tree.tree().depth())},
-          {"predicates", double(control.tests)}, {"splits", double(control.splits)},
-          {"merges", double(control.merges)},    {"refused_splits", double(control.refused)},
-          {"tree_build_ms", tree.buildMs()}};
+  std::vector<Counter> out = {{"cut_nodes", double(control.count)},
+                              {"cut_nodes_per_view", double(control.count) / views},
+                              {"refused_splits", double(control.refused)},
+                              {"points", double(1U << tree.tree().depth())},
+                              {"tree_build_ms", tree.buildMs()}};
+  // Every cut takes a test; forms that count none leave this out.
+  if (control.tests > 0) {
+    out.push_back({"predicates", double(control.tests)});
+    out.push_back({"splits", double(control.splits)});
+    out.push_back({"merges", double(control.merges)});
+  }
+  return out;
 }
 
 std::vector<Quantity> cutQuantities() {

@@ -123,8 +123,9 @@ TEST_F(MultiCuts, TheListingAsPrintedBreaksTheCut) {
 TEST_F(MultiCuts, OverfullListsLoseNothing) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 100;
-  for (const CutMode& mode : {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2}),
-                              CutMode(BasicCuts{2, 3, CutOrder::Kept}), CutMode(IncrementalCuts{2, 3, CutOrder::Kept})})
+  for (const CutMode& mode :
+       {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2}),
+        CutMode(BasicCuts{2, 3, CutOrder::Kept}), CutMode(IncrementalCuts{2, 3, CutOrder::Kept})})
     for (const uint32_t capacity : {kViews, 1024U, 5000U}) {
       MultiCut cut(context(), kViews, kDepth, capacity, mode);
       std::vector<CutView> views = anyViews(kViews, 4);
@@ -185,9 +186,14 @@ TEST_F(MultiCuts, SmallestTreesAndOneView) {
 TEST_F(MultiCuts, DoNotDependOnTheLevelsOfAStepOrTheOrder) {
   const GpuTree onGpu(context(), tree());
   constexpr uint32_t kViews = 200;
-  for (const auto& [levels, order] : std::vector<std::pair<int, CutOrder>>{
-           {1, CutOrder::Free}, {2, CutOrder::Free}, {3, CutOrder::Free}, {4, CutOrder::Free}, {5, CutOrder::Free},
-           {1, CutOrder::Kept}, {3, CutOrder::Kept}, {5, CutOrder::Kept}}) {
+  for (const auto& [levels, order] : std::vector<std::pair<int, CutOrder>>{{1, CutOrder::Free},
+                                                                           {2, CutOrder::Free},
+                                                                           {3, CutOrder::Free},
+                                                                           {4, CutOrder::Free},
+                                                                           {5, CutOrder::Free},
+                                                                           {1, CutOrder::Kept},
+                                                                           {3, CutOrder::Kept},
+                                                                           {5, CutOrder::Kept}}) {
     MultiCut basic(context(), kViews, kDepth, 1U << 18, BasicCuts{2, levels, order});
     MultiCut incremental(context(), kViews, kDepth, 1U << 18, IncrementalCuts{2, levels, order});
     std::vector<CutView> views = anyViews(kViews, 6);

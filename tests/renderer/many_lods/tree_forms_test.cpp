@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trees that are not complete and binary: what holds of those holds of these, and cuts are those of the recursion.
+// Trees that are not complete and binary: what holds of those holds of these, and cuts are those of the
+// recursion.
 #include <algorithm>
 #include <bit>
 #include <set>
@@ -50,7 +51,8 @@ void expectLinkedTree(const SphereTree& tree, const std::vector<glm::vec4>& sphe
 
 double volumeOf(const SphereTree& tree) {
   double sum = 0.0;
-  for (uint32_t node = kRootNode; node < 2 * tree.leafCount(); ++node) sum += std::pow(tree.spheres[node].w, 3.0);
+  for (uint32_t node = kRootNode; node < 2 * tree.leafCount(); ++node)
+    sum += std::pow(tree.spheres[node].w, 3.0);
   return sum;
 }
 
@@ -62,9 +64,11 @@ TEST(UnbalancedTrees, HaveEveryPointOnceAndParentsContainChildrenAfterRounding) 
     expectLinkedTree(tree, tree.spheres);
     // The same points as those of the complete tree.
     std::multiset<std::pair<uint32_t, uint32_t>> found, expected;
-    for (const SurfaceSample& sample : treeOf(of, 11).samples) expected.emplace(sample.triangle, sample.place);
+    for (const SurfaceSample& sample : treeOf(of, 11).samples)
+      expected.emplace(sample.triangle, sample.place);
     for (uint32_t node = kRootNode; node < 2 * tree.leafCount(); ++node)
-      if (tree.links[node].firstChild == 0) found.emplace(tree.samples[node].triangle, tree.samples[node].place);
+      if (tree.links[node].firstChild == 0)
+        found.emplace(tree.samples[node].triangle, tree.samples[node].place);
     EXPECT_EQ(found, expected);
   }
 }
@@ -108,15 +112,18 @@ class TreeForms : public gl::GlTest {
               [](glm::uvec2 a, glm::uvec2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
     return list;
   }
-  static std::vector<CutView> viewsOf(const SphereTree& tree, uint32_t count, uint32_t seed, double epsilonPx = 2.0) {
+  static std::vector<CutView> viewsOf(const SphereTree& tree, uint32_t count, uint32_t seed,
+                                      double epsilonPx = 2.0) {
     std::mt19937 random(seed);
-    // Views at points of the surface, of which a linked tree has them elsewhere, are those of the complete one.
+    // Views at points of the surface, of which a linked tree has them elsewhere, are those of the complete
+    // one.
     std::vector<CutView> out;
     const SphereTree complete = treeOf(bumpyBalls(), tree.depth);
     for (uint32_t i = 0; i < count; ++i) out.push_back(anyView(random, complete, epsilonPx));
     return out;
   }
-  static std::vector<glm::uvec2> expected(const SphereTree& tree, const std::vector<CutView>& views, int arityBits) {
+  static std::vector<glm::uvec2> expected(const SphereTree& tree, const std::vector<CutView>& views,
+                                          int arityBits) {
     std::vector<glm::uvec2> out;
     for (uint32_t i = 0; i < views.size(); ++i)
       for (const uint32_t node : recursiveCut(tree, views[i], arityBits)) out.emplace_back(node, i);
@@ -145,7 +152,8 @@ TEST_F(TreeForms, CutsEqualTheRecursion) {
     MultiCut incremental(context(), kViews, onGpu.shape(), 1U << 19, IncrementalCuts{arity, 5});
     for (uint32_t frame = 0; frame < 4; ++frame) {
       // Half of the views are elsewhere in every frame.
-      std::vector<CutView> views = viewsOf(form.tree, kViews, 31), others = viewsOf(form.tree, kViews, 50 + frame);
+      std::vector<CutView> views = viewsOf(form.tree, kViews, 31),
+                           others = viewsOf(form.tree, kViews, 50 + frame);
       std::copy_n(others.begin(), kViews / 2, views.begin());
       const gl::Buffer onGpuViews(views);
       basic.update(onGpu.nodes(), onGpuViews);
@@ -173,7 +181,8 @@ TEST_F(TreeForms, LazyCutsAreWholeInEveryFrameAndArriveAtRest) {
         ASSERT_EQ(faults.uncovered + faults.doubled, 0U) << form.arityBits << " bits, frame " << frame;
       }
       const std::vector<CutView> rest = viewsOf(form.tree, kViews, 90);
-      for (int frame = 0; frame < form.tree.height() + 1; ++frame) lazy.update(onGpu.nodes(), gl::Buffer(rest));
+      for (int frame = 0; frame < form.tree.height() + 1; ++frame)
+        lazy.update(onGpu.nodes(), gl::Buffer(rest));
       EXPECT_EQ(lazy.list(), expected(form.tree, rest, form.arityBits)) << form.arityBits << " bits";
     }
 }
@@ -223,7 +232,8 @@ TEST_F(TreeForms, UpdatesOfLinkedTreesEqualTheMergeOnTheCpu) {
           glm::vec4(glm::vec3(positionOf(tree.samples[node], of.positions, of.triangles)), tree.leafRadius);
   mergeUpwards(tree);
   for (uint32_t node = kRootNode; node < 2 * tree.leafCount(); ++node) {
-    ASSERT_LT(glm::distance(glm::vec3(spheres[node]), glm::vec3(tree.spheres[node])), 2e-4F) << "node " << node;
+    ASSERT_LT(glm::distance(glm::vec3(spheres[node]), glm::vec3(tree.spheres[node])), 2e-4F)
+        << "node " << node;
     ASSERT_NEAR(spheres[node].w, tree.spheres[node].w, 2e-4F) << "node " << node;
   }
   expectLinkedTree(tree, spheres);

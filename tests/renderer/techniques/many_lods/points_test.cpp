@@ -31,7 +31,8 @@ TEST_F(AdaptivePointPictures, DoNotDependOnTheFormOfCutsAndPixels) {
   EXPECT_LT(different, 0.01 * double(first.data.size()));
 }
 
-// Where points are larger than nodes may be, every tree's cut has all of them, and the picture does not depend on the tree.
+// Where points are larger than nodes may be, every tree's cut has all of them, and the picture does not
+// depend on the tree.
 TEST_F(AdaptivePointPictures, OfPointsAloneDoNotDependOnTheTree) {
   const scene::Scene scene = makeScene("sphere_grid");
   const Given all = {{"levels", int64_t{12}}, {"epsilon", 0.25}, {"pixels", std::string("two_passes")}};
