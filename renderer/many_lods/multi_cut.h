@@ -17,7 +17,7 @@
 namespace limen::many_lods {
 
 /// The cuts of one tree for many views, made on the GPU (ManyLoDs). The list has an entry (node, view) for
-/// each node of each cut, what is culled included, in an order that depends on nothing but the input.
+/// each node of each cut, what is culled included; CutOrder says in which order.
 ///
 /// Basic and incremental cuts are those of the recursion from the root, as children of valid nodes are valid
 /// (node_predicate.h): an entry with a valid parent climbs as long as it is a first child, and is dropped

@@ -125,7 +125,7 @@ TEST_F(MultiCuts, OverfullListsLoseNothing) {
   constexpr uint32_t kViews = 100;
   for (const CutMode& mode :
        {CutMode(BasicCuts{}), CutMode(IncrementalCuts{}), CutMode(LazyCuts{2, 2}),
-        CutMode(BasicCuts{2, 3, CutOrder::Kept}), CutMode(IncrementalCuts{2, 3, CutOrder::Kept})})
+        CutMode(BasicCuts{2, 3, CutOrder::Kept}), CutMode(IncrementalCuts{2, 3, CutOrder::Free})})
     for (const uint32_t capacity : {kViews, 1024U, 5000U}) {
       MultiCut cut(context(), kViews, kDepth, capacity, mode);
       std::vector<CutView> views = anyViews(kViews, 4);
