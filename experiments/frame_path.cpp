@@ -106,13 +106,16 @@ void FramePath::render(const perception::PathRequest& request, const perception:
     throwIfInterrupted();
     const double timeS = camera ? step * camera->stepS : 0.0, share = light ? step * light->step : 0.0;
     if (!frame || light) {
-      technique.reset();
+      const bool keep = technique && info.followsLight;
+      if (!keep) technique.reset();
       frame.reset();
       if (light) moved.emplace(withLightMoved(onGpu_.scene, share, directionDeg));
       frame =
           std::make_unique<frame::Frame>(context_, moved ? *moved : onGpu_.scene, onGpu_.gpu, sizePx_, timeS);
-      technique = info.make(run_.technique.values);
-      technique->prepare(*frame);
+      if (!keep) {
+        technique = info.make(run_.technique.values);
+        technique->prepare(*frame);
+      }
     }
     frame->setTime(timeS);
     frame->begin();

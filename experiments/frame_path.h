@@ -13,7 +13,8 @@ namespace limen::experiments {
 
 /// Renders a run's technique and its reference along a path, for metrics that evaluate changes. On a path of
 /// the camera alone, one technique renders all frames and may carry something from each to the next. Where
-/// the light moves, shadow maps are fitted anew: each frame is rendered on its own.
+/// the light moves, shadow maps are fitted anew: each frame is rendered on its own, but by techniques that
+/// follow the light (TechniqueInfo::followsLight).
 class FramePath {
  public:
   /// `references` holds the references' products; `identity`: what else determines these, besides time and

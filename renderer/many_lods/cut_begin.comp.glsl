@@ -5,6 +5,7 @@
 layout(local_size_x = kCutGroup) in;
 
 uniform uint viewCount;
+uniform uint regions;  // of the list: 2, or 3 where entries that are left over lie apart
 
 void main() {
 #ifdef RESTART
@@ -12,7 +13,7 @@ void main() {
     list[i] = uvec2(kRootNode, i);
 #endif
   if (gl_WorkGroupID.x > 0u) return;
-  const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+  const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
   for (uint i = gl_LocalInvocationIndex + 1u; i < uint(kMostCutSteps); i += uint(kCutGroup)) steps[i] = none;
   if (gl_LocalInvocationIndex > 0u) return;
 #ifdef RESTART
@@ -30,5 +31,8 @@ void main() {
   first.scanX = first.scanY = first.scanZ = 1u;
   first.readAt = control.readAt;
   first.count = control.count;
+  const uint region = control.readAt / capacity;
+  first.finishedAt = (region + 1u) % regions * capacity;
+  first.leftAt = (region + 2u) % regions * capacity;
   steps[0] = first;
 }

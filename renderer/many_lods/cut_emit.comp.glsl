@@ -1,69 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the list that a step makes, in the same order: by view, then from left to right in the tree.
+// Writes what a step makes of the list, in the same order. ORDERED: all together; else what is finished behind what earlier steps have
+// finished, and what the next step has to look at apart. LINKED: tree_links.glsl.
 #include "renderer/many_lods/cut_lists.glsl"
+#include "renderer/many_lods/tree_links.glsl"
 
 layout(local_size_x = kCutGroup) in;
 layout(std430, binding = kCutCodesBuffer) readonly buffer Codes { uvec4 codes[]; };
-layout(std430, binding = kCutTilesBuffer) readonly buffer Tiles { uvec2 tiles[]; };
+layout(std430, binding = kCutTilesBuffer) readonly buffer Tiles { uvec4 tiles[]; };
 
-uniform int splitLevels;
+uniform uint splitLevels;
 
-shared uint line[kCutGroup];
+shared uvec3 line[kCutGroup];
 
-// Entries and splits of an invocation in one word: 4 and 28 at most, of a tile 1024 and 7168.
-uint packedSum(uvec4 found) {
-  uint sum = 0u;
-  for (int row = 0; row < kCutRows; ++row)
-    sum += (found[row] == kCodeDropped ? 0u : 1u) + (uint(bitCount(found[row] & 0x7fu)) << 16u);
-  return sum;
-}
+#include "renderer/many_lods/cut_splits.glsl"
 
 void main() {
   const uint me = gl_LocalInvocationIndex;
-  const uint count = steps[step_].count, readAt = steps[step_].readAt, budget = steps[step_].budget;
-  const uint writeAt = capacity - readAt;
-  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
+  const CutStep now = steps[step_];
+  const bool full = now.full != 0u;
+  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < now.count; tile += gl_NumWorkGroups.x) {
     const uint first = tile * uint(kCutTile) + me * uint(kCutRows);
     const uvec4 found = codes[first / uint(kCutRows)];
-    const uint own = packedSum(found);
+    uvec3 own = uvec3(0u);
+    for (uint row = 0u; row < uint(kCutRows); ++row) {
+      if (first + row >= now.count) break;
+      const uint code = found[row];
+      own += uvec3(code == kCodeDropped ? 0u : 1u, splitsOf(code), leftOver(code, list[now.readAt + first + row].x, splitLevels));
+    }
     barrier();
     line[me] = own;
     barrier();
     for (uint distance_ = 1u; distance_ < uint(kCutGroup); distance_ *= 2u) {
-      uint upTo = line[me];
+      uvec3 upTo = line[me];
       if (me >= distance_) upTo += line[me - distance_];
       barrier();
       line[me] = upTo;
       barrier();
     }
-    const uint before = line[me] - own;
-    uvec2 at = tiles[tile] + uvec2(before & 0xffffu, before >> 16u);
+    uvec3 at = tiles[tile].xyz + line[me] - own;
     for (uint row = 0u; row < uint(kCutRows); ++row) {
-      if (first + row >= count) break;
+      if (first + row >= now.count) break;
       const uint code = found[row];
       if (code == kCodeDropped) continue;
-      const uvec2 entry = list[readAt + first + row];
+      const uvec2 entry = list[now.readAt + first + row];
       const uint view = entry.y & ~kEntryDone;
-      uint to = writeAt + at.x + min(at.y, budget);
-      const uint splits = code & 0x7fu;
-      at += uvec2(1u, uint(bitCount(splits)));
+      const uint splits = (code & kCodeSplit) != 0u ? code : 0u;
+      const uint left = leftOver(code, entry.x, splitLevels);
+      uint to = now.finishedAt + now.finished + at.x + min(at.y, now.budget), leftTo = now.leftAt + at.z;
+#ifndef ORDERED
+      if (!full) to -= at.z;
+#endif
+      const uint room = now.budget - min(now.budget, at.y);
+      at += uvec3(1u, bitCount(splits), left);
       if (splits == 0u) {
-        list[to] = uvec2(entry.x >> (code >> 8u & 31u), view | kEntryDone);
+        list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view | kEntryDone);
         continue;
       }
       // Parents come before children: what remains of the splits is a subtree.
-      uint kept = splits;
-      const uint room = budget - min(budget, at.y - uint(bitCount(splits)));
-      while (uint(bitCount(kept)) > room) kept &= ~(1u << findMSB(kept));
+      const uint kept = within(splits, room);
+      const bool goesOn = mayGoOn(entry.x, splitLevels);
       uint place = 1u;
       while (place != 0u) {
-        if (place < 8u && (kept >> (place - 1u) & 1u) != 0u) {
+        if (place < 1u << splitLevels && (kept >> (place - 1u) & 1u) != 0u) {
           place *= 2u;
           continue;
         }
-        const int level = findMSB(place);
-        const uint node = (entry.x << level) + place - (1u << level);
-        list[to++] = uvec2(node, level < splitLevels || node >= leaves ? view | kEntryDone : view);
+        const uint node = nodeBelow(entry.x, place);
+        if (goesOn && place >= 1u << splitLevels) {
+#ifdef ORDERED
+          list[to++] = uvec2(node, view);
+#else
+          if (full) list[to++] = uvec2(node, view | kEntryDone);
+          else list[leftTo++] = uvec2(node, view);
+#endif
+        } else {
+          list[to++] = uvec2(node, view | kEntryDone);
+        }
         while ((place & 1u) != 0u) place >>= 1u;
         if (place != 0u) ++place;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lists of a multi-cut and what controls its steps. See multi_cut.h.
+// The lists of a multi-cut and what controls its steps. See listed_cuts.h.
 #include "renderer/many_lods/many_lods_bindings.h"
 
 layout(std430, binding = kCutListBuffer) buffer List { uvec2 list[]; };
@@ -8,6 +8,6 @@ layout(std430, binding = kCutControlBuffer) buffer Control {
   CutStep steps[];
 };
 
-uniform uint step_, capacity, leaves;
+uniform uint step_, capacity;
 
 uint groupsFor(uint count, uint each) { return min((count + each - 1u) / each, uint(kMostCutGroups)); }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/many_lods/sphere_tree.h"
+#include "renderer/many_lods/tree_shape.h"
 
 namespace limen::many_lods {
 
@@ -15,22 +18,33 @@ class GpuTree {
   GpuTree(gl::Context& context, const SphereTree& tree);
 
   /// Spheres, and with `cones` cones, from where the vertices are: `positions` (three floats each, relative
-  /// to the anchor) and `indices` as frame::GpuScene has them. One dispatch for each kUpdateLevels levels.
+  /// to the anchor) and `indices` as frame::GpuScene has them. One dispatch for each kUpdateLevels levels, or
+  /// of a tree that is not complete for each level.
   /// The tree's topology stays. Binds storage buffers 0 to 4. Source: Holländer 2013, section 3.5.3.
   void update(const gl::Buffer& positions, const gl::Buffer& indices, bool cones = false) const;
 
   const gl::Buffer& nodes() const { return nodes_; }
   const gl::Buffer& cones() const { return cones_; }
-  const gl::Buffer& samples() const { return samples_; }  ///< of the leaves: SurfaceSample
+  /// Of the leaves: SurfaceSample; of a tree that is not complete for each node, kNoTriangle in inner ones.
+  const gl::Buffer& samples() const { return samples_; }
   int depth() const { return depth_; }
+  TreeShape shape() const { return {height_, links_ ? &*links_ : nullptr}; }  ///< for those who walk it
+  /// Of a tree that is not complete: first node of each level, then the number of nodes' places.
+  const std::vector<uint32_t>& levelFirst() const { return levelFirst_; }
   float leafRadius() const { return leafRadius_; }
-  int64_t bytes() const { return nodes_.bytes() + cones_.bytes() + samples_.bytes(); }
+  int64_t bytes() const {
+    return nodes_.bytes() + cones_.bytes() + samples_.bytes() + (links_ ? links_->bytes() : 0);
+  }
 
  private:
-  int depth_;
+  void updateLinked(bool cones) const;
+
+  int depth_, height_;
   float leafRadius_;
+  std::vector<uint32_t> levelFirst_;
   gl::Buffer nodes_, cones_, samples_;
-  const gl::Program* programs_[2][2];  // [with leaves][with cones]
+  std::optional<gl::Buffer> links_;
+  const gl::Program* programs_[2][2];  // [with leaves][with cones]; linked: [1]
 };
 
 }  // namespace limen::many_lods

@@ -37,16 +37,23 @@ const uint kViewPerspective = 1u;
 // Lists of cuts: x: node, y: view and this flag: nothing is left to do in this frame.
 const uint kEntryDone = 0x80000000u;
 
-// What becomes of an entry in a step: bits 0 to 6 say which nodes of the subtree below it are split (bit 0
-// the node itself, then its descendants as in a heap), bits 8 to 12 how many levels it climbs.
-const uint kCodeDropped = 0x8000u;
-const int kSplitLevels = 3;
+// What becomes of an entry in a step. Bit 0 set: it is split, and the bits say which nodes of the subtree below it
+// are (bit 0 the node itself, then its descendants as in a heap). Else how many nodes it climbs, from bit 8, or
+// kCodeDropped.
+const uint kCodeSplit = 1u;
+const uint kCodeClimbShift = 8u;
+const uint kCodeDropped = 0x80000000u;
+const int kMostSplitLevels = 5;
+
+// Cuts by geometry shaders.
+const uint kFeedbackNodesUnit = 0u;
+const uint kFeedbackViewsUnit = 1u;
 
 const int kCutGroup = 256;
 const int kCutRows = 4;  // entries of an invocation
 const int kCutTile = kCutGroup * kCutRows;
 const int kMostCutGroups = 16384;  // of a dispatch; groups take several tiles
-const int kMostCutSteps = 32;
+const int kMostCutSteps = 64;
 const int kCutScanGroup = 256;
 const int kCutScanRows = 8;  // tiles of an invocation
 
@@ -54,11 +61,15 @@ struct CutStep {                         // std430
   uint classifyX, classifyY, classifyZ;  // indirect arguments of its dispatches
   uint scanX, scanY, scanZ;
   uint emitX, emitY, emitZ;
-  uint readAt;      // first entry of the list as the step finds it; it writes to the other half
+  uint readAt;      // first entry that it finds
   uint count;       // entries that it finds
   uint budget;      // splits that the list has room for
-  uint unfinished;  // not 0: a further step is needed
-  uint unused0, unused1, unused2;
+  uint full;        // not 0: it has more to split than that
+  uint finishedAt;  // first entry of the list that becomes the frame's
+  uint finished;    // entries that are there already
+  uint leftAt;      // where it writes what the next step has to look at
+  // Of steps in one dispatch, so far: splits asked for, entries finished and left over, groups that are done.
+  uint asked, made, left, groupsDone;
 };
 struct CutControl {          // std430; followed by the steps
   uint drawX, drawY, drawZ;  // indirect arguments of a dispatch over the list, in groups of kSplatGroup
@@ -71,7 +82,7 @@ struct CutControl {          // std430; followed by the steps
   uint unused0, unused1, unused2, unused3, unused4, unused5;
 };
 #ifdef __cplusplus
-static_assert(sizeof(CutStep) == 64 && sizeof(CutControl) == 64 && offsetof(CutStep, scanX) == 12 &&
+static_assert(sizeof(CutStep) == 80 && sizeof(CutControl) == 64 && offsetof(CutStep, scanX) == 12 &&
               offsetof(CutStep, emitX) == 24);
 #endif
 
@@ -87,6 +98,20 @@ const uint kCutListBuffer = 2u;
 const uint kCutCodesBuffer = 3u;
 const uint kCutTilesBuffer = 4u;
 const uint kCutControlBuffer = 5u;
+const uint kCutLinksBuffer = 6u;
+// Triangle of the sample of an inner node, where samples are those of all nodes.
+const uint kNoTriangle = 0xffffffffu;
+
+// Of a node of a tree that is not complete (tree_shape.h).
+struct TreeLink {   // std430
+  uint firstChild;  // even, its sibling follows; 0: a leaf
+  uint parent;
+  uint height;      // edges to the farthest leaf below
+  uint leaves;      // below, or 1
+};
+#ifdef __cplusplus
+static_assert(sizeof(TreeLink) == 16);
+#endif
 
 // Update of the tree.
 const int kUpdateGroup = 256;

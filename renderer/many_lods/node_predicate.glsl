@@ -4,11 +4,11 @@
 #include "renderer/many_lods/many_lods_bindings.h"
 
 // What is wholly outside a view is fine enough, whatever its size.
-bool isCulled(vec3 centre, float radius, uint node, uint leaves, CutView view) {
+bool isCulledAt(vec3 centre, float radius, uint levelsAboveLeaves, CutView view) {
   precise vec3 v = centre - view.eye.xyz;
   // Rounding moves what is compared by a few 2^-24 of |v|; what decides gives way by more at each level, so that no child of what
   // is culled is not.
-  precise float give = radius + kCullSlack * float(findMSB(leaves) - findMSB(node)) * (abs(v.x) + abs(v.y) + abs(v.z));
+  precise float give = radius + kCullSlack * float(levelsAboveLeaves) * (abs(v.x) + abs(v.y) + abs(v.z));
   precise float depth = v.x * view.axisZ.x + v.y * view.axisZ.y + v.z * view.axisZ.z;
   if (view.axisZ.w == float(kViewHemisphere)) return depth < -give;
   precise float x = v.x * view.axisX.x + v.y * view.axisX.y + v.z * view.axisX.z;
@@ -16,6 +16,10 @@ bool isCulled(vec3 centre, float radius, uint node, uint leaves, CutView view) {
   precise float outX = abs(x) - depth * view.axisX.w, outY = abs(y) - depth * view.axisY.w;
   precise float giveX = give * view.frustum.x, giveY = give * view.frustum.y;
   return outX > giveX || outY > giveY || depth < -give;
+}
+
+bool isCulled(vec3 centre, float radius, uint node, uint leaves, CutView view) {
+  return isCulledAt(centre, radius, uint(findMSB(leaves) - findMSB(node)), view);
 }
 
 bool isFineEnough(vec4 sphere, CutView view) {

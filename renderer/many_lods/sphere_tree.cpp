@@ -141,12 +141,40 @@ glm::vec4 mergedSphere(glm::vec4 a, glm::vec4 b) {
 }
 
 void mergeUpwards(SphereTree& tree) {
-  for (uint32_t node = tree.leafCount() - 1; node >= kRootNode; --node) {
-    tree.spheres[node] = mergedSphere(tree.spheres[2 * node], tree.spheres[2 * node + 1]);
-    NormalCone cone = merged(unpack(tree.cones[2 * node]), unpack(tree.cones[2 * node + 1]));
+  // Nodes come after their parents.
+  for (auto node = static_cast<uint32_t>(tree.spheres.size()) - 1; node >= kRootNode; --node) {
+    uint32_t first = 2 * node;
+    if (tree.links.empty()) {
+      if (node >= tree.leafCount()) continue;
+    } else {
+      first = tree.links[node].firstChild;
+      if (first == 0) continue;
+      tree.links[node].height = 1 + std::max(tree.links[first].height, tree.links[first + 1].height);
+    }
+    tree.spheres[node] = mergedSphere(tree.spheres[first], tree.spheres[first + 1]);
+    NormalCone cone = merged(unpack(tree.cones[first]), unpack(tree.cones[first + 1]));
     cone.halfAngle += kConeSlack;
     tree.cones[node] = pack(cone);
   }
+}
+
+void prepareLeaves(SphereTree& tree, const std::vector<glm::dvec3>& positions,
+                   const std::vector<glm::uvec3>& triangles, double leafScale) {
+  const size_t leaves = tree.leafCount();
+  tree.area = surfaceArea(positions, triangles);
+  tree.leafRadius = static_cast<float>(leafScale * std::sqrt(tree.area / (kPi * double(leaves))));
+  tree.spheres.resize(2 * leaves);
+  tree.cones.resize(2 * leaves);
+  tree.samples.resize(tree.links.empty() ? leaves : 2 * leaves, {kNoTriangle, 0});
+}
+
+void setLeaf(SphereTree& tree, uint32_t node, glm::dvec3 point, uint32_t triangle,
+             const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles) {
+  tree.spheres[node] = glm::vec4(glm::vec3(point), tree.leafRadius);
+  const glm::uvec3 corners = triangles[triangle];
+  const glm::dvec3 a = positions[corners.x];
+  tree.cones[node] =
+      pack({glm::normalize(glm::cross(positions[corners.y] - a, positions[corners.z] - a)), 0.0});
 }
 
 SphereTree buildSphereTree(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
@@ -165,18 +193,10 @@ SphereTree buildSphereTree(const std::vector<glm::dvec3>& positions, const std::
   while ((1U << threadLevels) < std::max(std::thread::hardware_concurrency(), 1U)) ++threadLevels;
   MedianSplitter(points, order).split(0, leaves, std::min(threadLevels, 8));
 
-  tree.area = surfaceArea(positions, triangles);
-  tree.leafRadius = static_cast<float>(settings.leafScale * std::sqrt(tree.area / (kPi * leaves)));
-  tree.samples.reserve(leaves);
-  tree.spheres.resize(size_t{2} * leaves);
-  tree.cones.resize(size_t{2} * leaves);
+  prepareLeaves(tree, positions, triangles, settings.leafScale);
   for (uint32_t i = 0; i < leaves; ++i) {
-    tree.samples.push_back(samples[order[i]]);
-    tree.spheres[leaves + i] = glm::vec4(glm::vec3(points[order[i]]), tree.leafRadius);
-    const glm::uvec3 corners = triangles[samples[order[i]].triangle];
-    const glm::dvec3 a = positions[corners.x];
-    tree.cones[leaves + i] =
-        pack({glm::normalize(glm::cross(positions[corners.y] - a, positions[corners.z] - a)), 0.0});
+    tree.samples[i] = samples[order[i]];
+    setLeaf(tree, leaves + i, points[order[i]], tree.samples[i].triangle, positions, triangles);
   }
   mergeUpwards(tree);
   return tree;

@@ -46,10 +46,16 @@ struct SphereTree {
   std::vector<SurfaceSample> samples;  ///< of the leaves, in order
   std::vector<glm::vec4> spheres;      ///< 2^(depth + 1), [0] unused; relative to the anchor
   std::vector<PackedCone> cones;       ///< of the nodes' normals
-  float leafRadius = 0.0F;             ///< world units
-  double area = 0.0;                   ///< of the surface
+  /// Of a tree that is not complete (buildUnbalancedTree()): its nodes' links, empty else, with `samples` in
+  /// the places of the leaves' nodes, and the first node of each level, then the number of nodes' places.
+  std::vector<TreeLink> links;
+  std::vector<uint32_t> levelFirst;
+  float leafRadius = 0.0F;  ///< world units
+  double area = 0.0;        ///< of the surface
 
   uint32_t leafCount() const { return 1U << depth; }
+  /// Edges from the root to the farthest leaf.
+  int height() const { return links.empty() ? depth : static_cast<int>(links[kRootNode].height); }
 };
 
 /// Runs on all cores; the result does not depend on their number. Positions are world units, the tree is
@@ -57,7 +63,14 @@ struct SphereTree {
 SphereTree buildSphereTree(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
                            glm::dvec3 anchor, const TreeBuildSettings& settings);
 
-/// Spheres and cones of the inner nodes from those of the leaves.
+/// Spheres and cones of the inner nodes from those of the leaves; heights of linked ones.
 void mergeUpwards(SphereTree& tree);
+
+/// For those that build trees: radius of leaves, room for all nodes; a leaf at a point, relative to the
+/// anchor.
+void prepareLeaves(SphereTree& tree, const std::vector<glm::dvec3>& positions,
+                   const std::vector<glm::uvec3>& triangles, double leafScale);
+void setLeaf(SphereTree& tree, uint32_t node, glm::dvec3 point, uint32_t triangle,
+             const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles);
 
 }  // namespace limen::many_lods

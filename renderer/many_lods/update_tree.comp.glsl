@@ -3,50 +3,21 @@
 // level, and their common ancestor. LEAVES: of leaves, from the triangles where they are now. CONES: cones as well. Twins:
 // mergedSphere(), merged() and pack() in sphere_tree.cpp.
 #include "renderer/many_lods/many_lods_bindings.h"
-#ifdef LEAVES
-layout(std430, binding = kUpdatePositionsBuffer) readonly buffer Positions { float positions[]; };
-layout(std430, binding = kUpdateIndicesBuffer) readonly buffer Indices { uint indices[]; };
-layout(std430, binding = kUpdatePointsBuffer) readonly buffer Points { uvec2 points[]; };
-#endif
 
 layout(local_size_x = kUpdateGroup) in;
 layout(std430, binding = kUpdateNodesBuffer) buffer Nodes { vec4 nodes[]; };
 #ifdef CONES
 layout(std430, binding = kUpdateConesBuffer) buffer Cones { uvec2 cones[]; };
 #endif
+#include "renderer/many_lods/tree_nodes.glsl"
 
 uniform uint first;        // node: of the level that is merged; as many nodes as its number
-uniform float leafRadius;
 
 const uint kInputs = 2u * uint(kUpdateGroup);
 shared vec4 line[kUpdateGroup];
-
-vec4 mergedSphere(vec4 a, vec4 b) {
-  const vec3 apart = b.xyz - a.xyz;
-  const float distance_ = length(apart);
-  const float along = distance_ > 0.0 ? 0.5 + (b.w - a.w) / (2.0 * distance_) : 0.0;
-  const vec3 centre = a.xyz + apart * clamp(along, 0.0, 1.0);
-  return vec4(centre, max(distance(a.xyz, centre) + a.w, distance(b.xyz, centre) + b.w) * (1.0 + kSphereSlack));
-}
-
 #ifdef CONES
 #include "renderer/many_lods/cones.glsl"
 shared uvec2 coneLine[kUpdateGroup];
-#endif
-
-#ifdef LEAVES
-vec3 cornerOf(uint triangle, uint corner) {
-  const uint at = 3u * indices[3u * triangle + corner];
-  return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
-}
-
-vec4 leafOf(uint index, out vec3 normal) {
-  const uvec2 point = points[index];
-  const vec3 a = cornerOf(point.x, 0u), b = cornerOf(point.x, 1u), c = cornerOf(point.x, 2u);
-  const float s = float(point.y & 0xffffu) / 65535.0, t = float(point.y >> 16u) / 65535.0;
-  normal = cross(b - a, c - a);
-  return vec4(a * (1.0 - s - t) + b * s + c * t, leafRadius);
-}
 #endif
 
 void main() {

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
+#include "renderer/many_lods/gpu_tree.h"
 
 namespace limen::many_lods {
 
@@ -11,14 +12,22 @@ namespace limen::many_lods {
 /// hierarchy); the mean is the bench's own reading.
 class ValueTree {
  public:
+  /// Of a complete tree.
   ValueTree(gl::Context& context, int depth);
-  /// uvec2 for each node: packHalf2x16 of the first and the last two. Leaf i is element 2^depth + i.
+  /// Of any tree, which must outlive this.
+  ValueTree(gl::Context& context, const GpuTree& tree);
+  /// uvec2 for each node: packHalf2x16 of the first and the last two. Leaf i of a complete tree is element
+  /// 2^depth + i.
   const gl::Buffer& values() const { return values_; }
-  /// From the leaves up. Binds storage buffer 0. Issues barriers for storage before and after.
+  /// From the leaves up. Binds storage buffer 0, and 6 of a tree that is not complete. Issues barriers for
+  /// storage before and after.
   void average() const;
 
  private:
+  void averageLinked() const;
+
   int depth_;
+  const GpuTree* linked_ = nullptr;
   gl::Buffer values_;
   const gl::Program& program_;
 };

@@ -90,6 +90,9 @@ struct TechniqueInfo {
   bool reference = false;               ///< a reference to compare with
   /// Right for scenes whose parts move ("moving_parts"); others are refused them.
   bool followsMotion = false;
+  /// Renders all frames of a path of the light: prepared with the first, it reads the light anew in each and
+  /// may carry something over. Others are made anew for every frame of such a path.
+  bool followsLight = false;
   bool tessellates = false;  ///< has a tessellation() for metrics of the surface
   /// Runs on the CPU: its time is wall time on any machine.
   bool onCpu = false;

@@ -99,6 +99,34 @@ TEST_F(FramePathTest, FollowsTheCamerasPath) {
   }
 }
 
+// Cuts that are right do not depend on where they start; lazy ones lag behind a light that moves, and would
+// not if every frame were rendered on its own.
+TEST_F(FramePathTest, OneTechniqueFollowsTheLight) {
+  const scene::Scene still = sceneOf("cornell_box");
+  std::map<std::string, ParameterValue> given = {
+      {"lights", int64_t{16}}, {"levels", int64_t{12}}, {"epsilon", 1.0}, {"room", int64_t{8192}}};
+  int different = 0;
+  for (const char* cuts : {"incremental", "lazy"}) {
+    given["cuts"] = std::string(cuts);
+    PlannedRun run;
+    run.technique = technique("many_lods/instant_radiosity", given);
+    run.reference = technique("many_lods/traced_radiosity", {{"lights", int64_t{16}}});
+    const std::vector<Step> steps = render(still, run, {perception::LightPath{0.3, 0.0}, kSteps});
+    ASSERT_EQ(steps.size(), size_t{kSteps});
+    for (int step = 1; step <= kSteps; ++step) {
+      scene::Scene moved = still;
+      moved.lights[0].centre += 0.3 * step * moved.lights[0].size.x * moved.lights[0].axisX;
+      const Image expected = alone(moved, run.technique);
+      if (std::string(cuts) == "incremental") {
+        EXPECT_EQ(steps[size_t(step) - 1].test.data, expected.data) << step;
+      } else {
+        different += steps[size_t(step) - 1].test.data != expected.data ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(different, kSteps);
+}
+
 TEST_F(FramePathTest, RefusesACameraWithoutAPath) {
   PlannedRun run;
   run.technique = technique("soft_shadows/hard", {});

@@ -8,15 +8,17 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/surface_point.h"
+#include "renderer/many_lods/unbalanced_tree.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 
 namespace limen::techniques {
 namespace {
 
-gl::ShaderDefines leafDefines(const frame::ShadedSetting& shading, const frame::Frame& frame) {
+gl::ShaderDefines leafDefines(const frame::ShadedSetting& shading, const frame::Frame& frame, bool linked) {
   gl::ShaderDefines defines = frame::shadingDefines(shading, frame);
   defines.merge(frame::surfaceDefines(frame, shading.smoothNormals));
   defines.erase("SHADOW");
+  if (linked) defines["LINKED"] = "1";
   return defines;
 }
 
@@ -70,12 +72,13 @@ uint32_t CutLimits::capacity(uint32_t views) const {
   return static_cast<uint32_t>(entries);
 }
 
-SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings) : settings_(settings) {
+SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings, bool balanced) : settings_(settings) {
   const auto start = std::chrono::steady_clock::now();
   const scene::Scene& scene = frame.scene();
+  const auto build = balanced ? &many_lods::buildSphereTree : &many_lods::buildUnbalancedTree;
   const many_lods::SphereTree tree =
-      many_lods::buildSphereTree(scene.mesh.positions, scene.mesh.triangles, frame.gpuScene().anchor(),
-                                 {settings.levels, settings.leafScale, static_cast<uint64_t>(settings.seed)});
+      build(scene.mesh.positions, scene.mesh.triangles, frame.gpuScene().anchor(),
+            {settings.levels, settings.leafScale, static_cast<uint64_t>(settings.seed)});
   buildMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   tree_.emplace(frame.context(), tree);
   frame.passes().setBytesHeld(kUpdatePass, tree_->bytes());
@@ -89,16 +92,18 @@ void SceneTree::update(frame::Frame& frame) const {
 
 TreeLight::TreeLight(frame::Frame& frame, const many_lods::GpuTree& tree, const frame::ShadedSetting& shading)
     : shading_(shading),
-      program_(frame.context().programs().compute("renderer/techniques/many_lods/leaf_colours.comp.glsl",
-                                                  leafDefines(shading, frame))),
-      values_(frame.context(), tree.depth()) {
+      program_(
+          frame.context().programs().compute("renderer/techniques/many_lods/leaf_colours.comp.glsl",
+                                             leafDefines(shading, frame, tree.shape().links != nullptr))),
+      values_(frame.context(), tree) {
   frame.passes().setBytesHeld(kLightPass, values_.values().bytes());
 }
 
 void TreeLight::make(frame::Frame& frame, const many_lods::GpuTree& tree) const {
   const auto scope = frame.passes().open(kLightPass);
   frame::configureShading(program_, frame, shading_);
-  const uint32_t leaves = 1U << tree.depth();
+  // Of a tree that is not complete, all nodes, of which the inner ones have no sample.
+  const uint32_t leaves = (tree.shape().links ? 2U : 1U) << tree.depth();
   program_.set("leaves", leaves);
   tree.samples().bindStorage(kLeafSamplesBuffer);
   values_.values().bindStorage(kLeafColoursBuffer);
@@ -109,16 +114,25 @@ void TreeLight::make(frame::Frame& frame, const many_lods::GpuTree& tree) const 
 
 std::vector<Counter> cutCounters(const many_lods::CutControl& control, uint32_t views,
                                  const SceneTree& tree) {
-  return {{"cut_nodes", double(control.count)},  {"cut_nodes_per_view", double(control.count) / views},
-          {"predicates", double(control.tests)}, {"splits", double(control.splits)},
-          {"merges", double(control.merges)},    {"refused_splits", double(control.refused)},
-          {"tree_build_ms", tree.buildMs()}};
+  std::vector<Counter> out = {{"cut_nodes", double(control.count)},
+                              {"cut_nodes_per_view", double(control.count) / views},
+                              {"refused_splits", double(control.refused)},
+                              {"points", double(1U << tree.tree().depth())},
+                              {"tree_build_ms", tree.buildMs()}};
+  // Every cut takes a test; forms that count none leave this out.
+  if (control.tests > 0) {
+    out.push_back({"predicates", double(control.tests)});
+    out.push_back({"splits", double(control.splits)});
+    out.push_back({"merges", double(control.merges)});
+  }
+  return out;
 }
 
 std::vector<Quantity> cutQuantities() {
   const Direction lower = Direction::LowerIsBetter;
   return {{"cut_nodes", "Nodes of all cuts", "", lower},
           {"cut_nodes_per_view", "Nodes of a cut", "", lower},
+          {"points", "Points of the tree", "", Direction::Neither},
           {"predicates", "Nodes tested in a frame", "", lower},
           {"splits", "Nodes split in a frame", "", lower},
           {"merges", "Pairs merged in a frame", "", lower},

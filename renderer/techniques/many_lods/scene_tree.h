@@ -39,7 +39,8 @@ inline constexpr const char *kCutsText = "Where cuts start in a frame and how fa
 /// The tree of a frame's scene, brought up to date in each frame.
 class SceneTree {
  public:
-  SceneTree(frame::Frame& frame, const TreeSettings& settings);
+  /// `balanced`: complete; else split where volumes are least (many_lods::buildUnbalancedTree()).
+  SceneTree(frame::Frame& frame, const TreeSettings& settings, bool balanced = true);
   /// Opens the pass many_lods/update. Nothing to do where nothing moves and settings do not ask for it.
   void update(frame::Frame& frame) const;
 

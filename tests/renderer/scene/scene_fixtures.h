@@ -108,6 +108,7 @@ inline Given needed(const std::string& scene) {
   if (scene == "curved/star_field") return {{"tessellation", int64_t{2}}, {"layers", int64_t{1}}};
   if (scene == "curved/herd") return {{"animals", int64_t{2}}};
   if (scene == "mirrors/mesh") return {{"file", smallMeshFile()}};
+  if (scene == "herd") return {{"animals", int64_t{9}}, {"tessellation", int64_t{2}}};
   if (scene == "mirrors/herd") return {{"figures", int64_t{4}}};
   if (scene == "mirrors/several") return {{"tessellation", int64_t{8}}};
   if (scene == "mirrors/bunny") return {{"detail", 0.01}};

@@ -20,7 +20,8 @@ constexpr const char* kInPlacePass = "many_lods/in_place";
 
 using ViewCuts =
     std::variant<many_lods::IncrementalCuts, many_lods::LazyCuts, many_lods::BasicCuts,
-                 many_lods::LiteralCuts, many_lods::InPlaceSettings, many_lods::SequentialSettings>;
+                 many_lods::LiteralCuts, many_lods::InPlaceSettings, many_lods::SequentialSettings,
+                 many_lods::GeometryShaderCuts, many_lods::HybridSettings>;
 
 /// Of cuts that are kept in a list.
 many_lods::CutMode listed(const ViewCuts& cuts) {
@@ -184,12 +185,13 @@ class InstantRadiosity : public Technique {
 
 const RegisteredTechnique<InstantRadiosity> kInstantRadiosityRegistered{
     {.name = "many_lods/instant_radiosity",
-     .version = 1,
+     .version = 2,
      .summary =
          "One bounce of light by virtual point lights, their shadow maps drawn from cuts for all of them",
      .source = "Holländer 2013, sections 3.5 and 3.6.1 (HOL-25)",
      .product = ProductKind::Colour,
      .needs = {"area_light"},
+     .followsLight = true,
      .counters = radiosityQuantities(),
      .effort = "levels"}};
 

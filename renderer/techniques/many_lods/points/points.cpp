@@ -27,6 +27,7 @@ constexpr EnumNames<PointPixels, 3> enumNames(PointPixels) {
 
 struct PointsSettings {
   TreeSettings tree;
+  bool balanced = true;
   many_lods::CutMode cuts;
   CutLimits limits{1.0, 1048576};
   PointPixels pixels = PointPixels::Wide;
@@ -35,6 +36,9 @@ struct PointsSettings {
     using S = PointsSettings;
     static const SettingsTable<S> kTable = {
         included(&S::tree),
+        {&S::balanced, "balanced",
+         "A complete tree; else one that is split where volumes are least, with links between its nodes",
+         "Holländer 2013, section 3.8"},
         {&S::cuts, "cuts", kCutsText, kCutsSource},
         included(&S::limits),
         {&S::pixels, "pixels",
@@ -66,9 +70,9 @@ class AdaptivePoints : public Technique {
   explicit AdaptivePoints(const PointsSettings& settings) : settings_(settings) {}
 
   void prepare(frame::Frame& frame) override {
-    tree_.emplace(frame, settings_.tree);
+    tree_.emplace(frame, settings_.tree, settings_.balanced);
     light_.emplace(frame, tree_->tree(), settings_.shading);
-    cut_.emplace(frame.context(), 1U, tree_->tree().depth(), settings_.limits.capacity(1), settings_.cuts);
+    cut_.emplace(frame.context(), 1U, tree_->tree().shape(), settings_.limits.capacity(1), settings_.cuts);
     atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels));
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =
@@ -138,7 +142,7 @@ class AdaptivePoints : public Technique {
 
 const RegisteredTechnique<AdaptivePoints> kPointsRegistered{
     {.name = "many_lods/points",
-     .version = 1,
+     .version = 2,
      .summary = "The scene as points whose density follows their size on the screen, from a tree of spheres",
      .source = "Holländer 2013, sections 3.5 and 3.6 (HOL-33)",
      .product = ProductKind::Colour,

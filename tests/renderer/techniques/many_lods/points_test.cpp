@@ -31,6 +31,23 @@ TEST_F(AdaptivePointPictures, DoNotDependOnTheFormOfCutsAndPixels) {
   EXPECT_LT(different, 0.01 * double(first.data.size()));
 }
 
+// Where points are larger than nodes may be, every tree's cut has all of them, and the picture does not
+// depend on the tree.
+TEST_F(AdaptivePointPictures, OfPointsAloneDoNotDependOnTheTree) {
+  const scene::Scene scene = makeScene("sphere_grid");
+  const Given all = {{"levels", int64_t{12}}, {"epsilon", 0.25}, {"pixels", std::string("two_passes")}};
+  const Rendered complete = points(scene, all);
+  Given given = all;
+  given["balanced"] = false;
+  EXPECT_EQ(points(scene, given).product.data, complete.product.data);
+  for (const int64_t arity : {4, 8}) {
+    given = all;
+    given["cuts"] = std::string("incremental");
+    given["cuts.arity"] = arity;
+    EXPECT_EQ(points(scene, given).product.data, complete.product.data) << arity;
+  }
+}
+
 // A coarser cut has a share of the nodes that falls with the square of their size, where points do not end
 // it: by 16 from 4 to 16 pixels, 4 and more in practice as culled nodes stay.
 TEST_F(AdaptivePointPictures, NodesFallWithTheirSize) {

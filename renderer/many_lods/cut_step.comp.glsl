@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A whole step in one dispatch: groups say what becomes of their entries and take room for it where the list goes on, in the order in
+// which they come. The last one has the next step dispatched. RULE, LINKED: cut_events.glsl.
+#include "renderer/many_lods/many_lods_bindings.h"
+
+layout(local_size_x = kCutGroup) in;
+layout(std430, binding = kCutNodesBuffer) readonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = kCutViewsBuffer) readonly buffer Views { CutView views[]; };
+#include "renderer/many_lods/cut_events.glsl"
+#include "renderer/many_lods/cut_splits.glsl"
+
+uniform uint lastStep;    // steps end here even if entries are left over
+uniform uint splitsEach;  // of a node by one level of the tree; rooms are used up in these
+
+shared uvec2 line[kCutGroup];
+shared uint finishedBase, leftBase, granted;
+
+// Kept and split, 16 bits each, and left over.
+uvec2 packedSums(uint code, uint node) {
+  return uvec2((code == kCodeDropped ? 0u : 1u) | splitsOf(code) << 16u, leftOver(code, node, splitLevels));
+}
+
+void finishStep(uint count, uint finished, uint budget) {
+  const uint made = atomicAdd(steps[step_].made, 0u), left = atomicAdd(steps[step_].left, 0u);
+  control.splits += min(atomicAdd(steps[step_].asked, 0u), budget);
+  control.steps = step_ + 1u;
+  control.count = finished + made;
+  control.readAt = steps[step_].finishedAt;
+  control.drawX = groupsFor(control.count, uint(kSplatGroup));
+  control.drawY = control.drawZ = 1u;
+  if (step_ >= lastStep || left == 0u) return;
+  const uint next = step_ + 1u;
+  steps[next].readAt = steps[step_].leftAt;
+  steps[next].leftAt = steps[step_].readAt;
+  steps[next].finishedAt = steps[step_].finishedAt;
+  steps[next].finished = finished + made;
+  steps[next].count = left;
+  steps[next].classifyX = groupsFor(left, uint(kCutTile));
+  steps[next].classifyY = steps[next].classifyZ = 1u;
+}
+
+void main() {
+  const uint me = gl_LocalInvocationIndex;
+  const uint count = steps[step_].count, at = steps[step_].readAt;
+  const uint finished = steps[step_].finished, finishedAt = steps[step_].finishedAt + finished, leftAt = steps[step_].leftAt;
+  // As if nothing were dropped: what is dropped is known when all is done.
+  uint budget = capacity - finished - count;
+  budget -= budget % splitsEach;
+  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
+    const uint first = tile * uint(kCutTile) + me;
+    uint codes[kCutRows];
+    uvec2 own = uvec2(0u);
+    for (int row = 0; row < kCutRows; ++row) {
+      const uint index = first + uint(row * kCutGroup);
+      codes[row] = kCodeDropped;
+      if (index >= count) continue;
+      codes[row] = codeOf(at, index, count);
+      own += packedSums(codes[row], list[at + index].x);
+    }
+    barrier();
+    line[me] = own;
+    barrier();
+    for (uint distance_ = 1u; distance_ < uint(kCutGroup); distance_ *= 2u) {
+      uvec2 upTo = line[me];
+      if (me >= distance_) upTo += line[me - distance_];
+      barrier();
+      line[me] = upTo;
+      barrier();
+    }
+    if (me == uint(kCutGroup) - 1u) {
+      const uint kept = line[me].x & 0xffffu, asked = line[me].x >> 16u;
+      uint here = asked;
+      if (asked > 0u) {
+        const uint before = atomicAdd(steps[step_].asked, asked);
+        here = min(asked, budget - min(before, budget));
+        if (here < asked) atomicAdd(control.refused, asked - here);
+      }
+      granted = here;
+      const uint left = here < asked ? 0u : line[me].y;
+      finishedBase = atomicAdd(steps[step_].made, kept + here - left);
+      leftBase = left > 0u ? atomicAdd(steps[step_].left, left) : 0u;
+    }
+    barrier();
+    // Without room for all, what there is room for is made, and nothing is left over.
+    const bool full = granted < line[kCutGroup - 1].x >> 16u;
+    const uvec2 before = line[me] - own;
+    uvec3 so = uvec3(before.x & 0xffffu, before.x >> 16u, before.y);
+    for (int row = 0; row < kCutRows; ++row) {
+      const uint code = codes[row];
+      if (code == kCodeDropped) continue;
+      const uvec2 entry = list[at + first + uint(row * kCutGroup)];
+      const uint view = entry.y & ~kEntryDone;
+      const uint splits = (code & kCodeSplit) != 0u ? code : 0u;
+      uint to = finishedAt + finishedBase + so.x + min(so.y, granted) - (full ? 0u : so.z), leftTo = leftAt + leftBase + so.z;
+      const uint room = granted - min(granted, so.y);
+      so += uvec3(1u, bitCount(splits), leftOver(code, entry.x, splitLevels));
+      if (splits == 0u) {
+        list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view);
+        continue;
+      }
+      const uint kept = within(splits, room);
+      const bool goesOn = !full && mayGoOn(entry.x, splitLevels);
+      uint place = 1u;
+      while (place != 0u) {
+        if (place < 1u << splitLevels && (kept >> (place - 1u) & 1u) != 0u) {
+          place *= 2u;
+          continue;
+        }
+        const uvec2 made = uvec2(nodeBelow(entry.x, place), view);
+        if (goesOn && place >= 1u << splitLevels)
+          list[leftTo++] = made;
+        else
+          list[to++] = made;
+        while ((place & 1u) != 0u) place >>= 1u;
+        if (place != 0u) ++place;
+      }
+    }
+    barrier();
+  }
+#ifdef COUNTING
+  addCounts();
+#endif
+  memoryBarrierBuffer();
+  barrier();
+  if (me > 0u) return;
+  if (atomicAdd(steps[step_].groupsDone, 1u) == gl_NumWorkGroups.x - 1u) finishStep(count, finished, budget);
+}
