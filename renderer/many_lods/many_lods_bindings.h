@@ -103,6 +103,7 @@ const int kSmallSplatPx = 64;  // boxes of more pixels are drawn by the whole gr
 const uint kSplatDepthsBuffer = 3u;
 const uint kSplatWinnersBuffer = 4u;
 const uint kSplatColoursBuffer = 6u;
+const uint kSplatConesBuffer = 7u;
 const uint kAtlasEmpty = 0xffffffffu;
 const float kFarthestDepth = 0.99999988079071045f;  // 1 - 2^-23: what lies farther, too
 

@@ -69,7 +69,8 @@ class AdaptivePoints : public Technique {
     tree_.emplace(frame, settings_.tree);
     light_.emplace(frame, tree_->tree(), settings_.shading);
     cut_.emplace(frame.context(), 1U, tree_->tree().depth(), settings_.limits.capacity(1), settings_.cuts);
-    atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels));
+    atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels),
+                   settings_.tree.discs);
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =
         &frame.context().programs().compute("renderer/techniques/many_lods/points/resolve.comp.glsl",
@@ -86,7 +87,7 @@ class AdaptivePoints : public Technique {
     findCut(frame, false);
     {
       const auto scope = frame.passes().open(kSplatPass);
-      atlas_->draw(*cut_, tree_->tree().nodes(), *views_, {}, &light_->values());
+      atlas_->draw(*cut_, tree_->tree().nodes(), *views_, tree_->discs(0.0), &light_->values());
     }
     const auto scope = frame.passes().open(kResolvePass);
     atlas_->depths().bindStorage(kPointsDepthsBuffer);
@@ -138,7 +139,7 @@ class AdaptivePoints : public Technique {
 
 const RegisteredTechnique<AdaptivePoints> kPointsRegistered{
     {.name = "many_lods/points",
-     .version = 1,
+     .version = 2,
      .summary = "The scene as points whose density follows their size on the screen, from a tree of spheres",
      .source = "Holländer 2013, sections 3.5 and 3.6 (HOL-33)",
      .product = ProductKind::Colour,
