@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the nodes of a list of cuts into their views' tiles as discs, the projections of their spheres. FORM: what is kept of the
-// nearest (view_atlas.h). WINNERS: second pass of kFormTwoPasses. ORIENTED: splat_disc.glsl.
+// nearest (view_atlas.h). WINNERS: second pass of kFormTwoPasses. ORIENTED: splat_disc.glsl. OWNERS: nodes of a view's own
+// object are left out.
 #if FORM == 2
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
@@ -25,7 +26,20 @@ layout(std430, binding = kSplatWinnersBuffer) buffer Winners { uint winners[]; }
 layout(std430, binding = kSplatColoursBuffer) readonly buffer Colours { uvec2 colours[]; };
 #endif
 
+#ifdef OWNERS
+layout(std430, binding = kSplatOwnersBuffer) readonly buffer Owners { uint owners[]; };  // of nodes; 0: none, or several
+#endif
+
 #include "renderer/many_lods/splat_disc.glsl"
+
+bool isOwn(uvec2 entry) {
+#ifdef OWNERS
+  const uint owner = uint(views[entry.y & ~kEntryDone].frustum.w);
+  return owner != 0u && owners[entry.x] == owner;
+#else
+  return false;
+#endif
+}
 
 void cover(Disc disc, ivec2 pixel) {
   uint depth;
@@ -61,7 +75,7 @@ void main() {
     if (me == 0u) largeCount = 0u;
     barrier();
     Disc disc;
-    if (first + me < count && discOf(list[at + first + me], disc)) {
+    if (first + me < count && !isOwn(list[at + first + me]) && discOf(list[at + first + me], disc)) {
       ivec2 low, high;
       boxOf(disc, low, high);
       const ivec2 size = max(high - low + 1, ivec2(0));

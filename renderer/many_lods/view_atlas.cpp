@@ -37,9 +37,11 @@ bool hasWideAtomics() {
          epoxy_has_gl_extension("GL_ARB_gpu_shader_int64");
 }
 
-ViewAtlas::ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form, Discs discs)
+ViewAtlas::ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form, Discs discs,
+                     bool leavesOwnOut)
     : form_(formFor(form)), tilePx_(tilePx), depths_(atlasBytes(views, tilePx, form_), nullptr) {
   gl::ShaderDefines defines = discDefines(discs);
+  if (leavesOwnOut) defines["OWNERS"] = "1";
   defines["FORM"] = std::to_string(static_cast<int>(form_));
   const std::string path = "renderer/many_lods/splat.comp.glsl";
   first_ = &context.programs().compute(path, defines);
@@ -69,6 +71,7 @@ void ViewAtlas::draw(const DrawList& what, const gl::Buffer& nodes, const gl::Bu
   depths_.bindStorage(kSplatDepthsBuffer);
   if (winners_) winners_->bindStorage(kSplatWinnersBuffer);
   if (colours) colours->bindStorage(kSplatColoursBuffer);
+  if (settings.owners) settings.owners->bindStorage(kSplatOwnersBuffer);
   if (settings.cones) settings.cones->bindStorage(kSplatConesBuffer);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   for (const gl::Program* program : {first_, second_}) {

@@ -67,6 +67,22 @@ const uint kRayGatherSumsImage = 0u;
 const uint kRayGatherSumsUnit = 0u;
 const uint kRayGatherImage = 1u;
 
+// Maps of what objects reflect.
+const uint kMapViewsBuffer = 0u;
+const uint kMapDepthsBuffer = 1u;
+const uint kMapWinnersBuffer = 2u;
+const uint kMapColoursBuffer = 3u;
+const uint kMapOriginsUnit = 0u;
+const uint kMapDirectionsUnit = 1u;
+const uint kMapIdsUnit = 2u;
+const uint kMapObjectsUnit = 3u;
+const uint kMapPixelsUnit = 4u;
+const uint kMapReflectedImage = 0u;
+const uint kTracedMapViewsUnit = 0u;
+const uint kTracedMapImage = 1u;
+const int kMapRow = 32;            // views beside each other in a texture of maps
+const int kMapObjectsWidth = 1024;  // of a texture of triangles' objects
+
 // What views of receivers gather.
 const int kGatherGroup = 64;
 const uint kGatherViewsBuffer = 0u;

@@ -26,7 +26,8 @@ constexpr EnumNames<PointPixels, 3> enumNames(PointPixels) {
 }
 
 struct PointsSettings {
-  TreeSettings tree;
+  // As the thesis draws them: of discs in one plane, two words could not tell the nearest.
+  TreeSettings tree{.discs = many_lods::Discs::Spheres};
   many_lods::CutMode cuts;
   CutLimits limits{1.0, 1048576};
   PointPixels pixels = PointPixels::Wide;
@@ -139,7 +140,7 @@ class AdaptivePoints : public Technique {
 
 const RegisteredTechnique<AdaptivePoints> kPointsRegistered{
     {.name = "many_lods/points",
-     .version = 2,
+     .version = 1,
      .summary = "The scene as points whose density follows their size on the screen, from a tree of spheres",
      .source = "Holländer 2013, sections 3.5 and 3.6 (HOL-33)",
      .product = ProductKind::Colour,

@@ -22,7 +22,7 @@ uniform int firstRay, endRay;
 uniform uint seed;
 uniform vec3 eyePosition;               // relative to the anchor
 uniform vec3 lampCentre, lampZ, intensity;  // along its direction
-uniform float nearestHit;               // world units
+uniform float nearestHit, leastDistance;    // world units
 #include "renderer/techniques/many_lods/glossy.glsl"
 #include "renderer/techniques/many_lods/sky.glsl"
 
@@ -89,7 +89,10 @@ void main() {
       if (!rayAnyHit(ray)) light = vec3(skyRadiance(towards));
 #else
       const RayHit hit = rayClosestHit(ray);
-      if (hit.triangle != kRayNoTriangle) light = lampReflected(ray, hit);
+      if (hit.triangle != kRayNoTriangle) {
+        const float near = leastDistance > 0.0 ? min(hit.t / leastDistance, 1.0) : 1.0;
+        light = near * near * lampReflected(ray, hit);
+      }
 #endif
       light *= reflectedShare(albedo, normal, view, towards) / density;
     }

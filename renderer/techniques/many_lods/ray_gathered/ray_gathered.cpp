@@ -28,8 +28,12 @@ struct LampBounce {
   static constexpr const char *kKind = "lamp",
                               *kSummary = "light of the scene's first light that surfaces reflect";
   double gain = 10.0;
+  double clamp = 0.0;
   static const SettingsTable<LampBounce>& table() {
     static const SettingsTable<LampBounce> kTable = {
+        {&LampBounce::clamp, "clamp", {0.0, 1.0}, "",
+         "Distance below which light that surfaces send grows no more, as many_lods/traced_radiosity bounds it; 0: "
+         "no bound"},
         {&LampBounce::gain, "gain", {0.0, 1000.0}, "", "Factor on the light, as many_lods/traced_radiosity has it"}};
     return kTable;
   }
@@ -138,6 +142,8 @@ class RayGathered : public Technique {
       intensity = light.parts[0].radiance *
                   static_cast<float>(std::get<LampBounce>(settings_.light).gain * light.area());
     }
+    gather_->set("leastDistance",
+                 static_cast<float>(std::get<LampBounce>(settings_.light).clamp * frame.gpuScene().diagonal()));
     gather_->set("lampCentre", centre);
     gather_->set("lampZ", direction);
     gather_->set("intensity", intensity);
