@@ -67,6 +67,11 @@ const uint kRayGatherSumsImage = 0u;
 const uint kRayGatherSumsUnit = 0u;
 const uint kRayGatherImage = 1u;
 
+// Probes. Otherwise as what views gather.
+const int kProbeTerms = 9;  // spherical harmonics up to the second order
+const uint kProbesBuffer = 4u;
+const uint kProbeImage = 0u;
+
 // Maps of what objects reflect.
 const uint kMapViewsBuffer = 0u;
 const uint kMapDepthsBuffer = 1u;

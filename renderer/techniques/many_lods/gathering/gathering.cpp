@@ -12,7 +12,7 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/many_lods/view_atlas.h"
-#include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/techniques/many_lods/lit_points.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 #include "renderer/techniques/many_lods/receiver_surface.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
@@ -21,7 +21,7 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char *kReceiversPass = "many_lods/receivers", *kGatherPass = "many_lods/gather",
-                     *kUpsamplePass = "many_lods/upsample", *kLitPass = "many_lods/lit_points";
+                     *kUpsamplePass = "many_lods/upsample";
 const std::string kGatheringFolder = "renderer/techniques/many_lods/gathering/";
 
 struct ReceiverSettings {
@@ -127,11 +127,7 @@ class Gathering : public Technique {
     receiver_ = &cache.compute(kGatheringFolder + "receiver_views.comp.glsl");
     gather_ = &cache.compute(kGatheringFolder + "gather.comp.glsl", defines);
     upsample_ = &cache.compute(kGatheringFolder + "upsample.comp.glsl", defines);
-    if (kLight) {
-      lit_ = &cache.compute(kGatheringFolder + "lit_leaves.comp.glsl");
-      light_.emplace(frame.context(), tree_->tree().depth());
-      frame.passes().setBytesHeld(kLitPass, light_->values().bytes());
-    }
+    if (kLight) light_.emplace(frame, tree_->tree());
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
     frame.passes().setBytesHeld(kReceiversPass, views_->bytes());
     frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
@@ -142,7 +138,7 @@ class Gathering : public Technique {
 
   void render(frame::Frame& frame) override {
     tree_->update(frame);
-    if (kLight) lightPoints(frame);
+    if constexpr (kLight) light_->make(frame, tree_->tree(), settings_.part.gain);
     findCuts(frame, false);
     {
       const auto scope = frame.passes().open(kSplatPass);
@@ -186,26 +182,6 @@ class Gathering : public Technique {
     program.set("spacing", receivers_.spacing);
   }
 
-  void lightPoints(frame::Frame& frame) {
-    const auto scope = frame.passes().open(kLitPass);
-    const scene::AreaLight& light = frame.scene().lights[0];
-    const uint32_t leaves = 1U << tree_->tree().depth();
-    frame.bindSurfaces();
-    frame.geometry().bindStorage();
-    frame.gpuScene().rays(frame.context()).bind(*lit_);
-    tree_->tree().samples().bindStorage(kLitSamplesBuffer);
-    light_->values().bindStorage(kLitColoursBuffer);
-    lit_->set("leaves", leaves);
-    lit_->set("lightCentre", glm::vec3(light.centre - frame.gpuScene().anchor()));
-    lit_->set("lightZ", glm::vec3(light.direction()));
-    if constexpr (kLight)
-      lit_->set("intensity",
-                light.parts[0].radiance * static_cast<float>(settings_.part.gain * light.area()));
-    lit_->use();
-    glDispatchCompute((leaves + kLeafColoursGroup - 1) / kLeafColoursGroup, 1, 1);
-    light_->average();
-  }
-
   void findCuts(frame::Frame& frame, bool counting) {
     const gl::Texture& positions = channel(frame, frame::Channel::Position);
     const gl::Texture& normals = channel(frame, frame::Channel::Normal);
@@ -230,14 +206,12 @@ class Gathering : public Technique {
   void gather(frame::Frame& frame) {
     const auto scope = frame.passes().open(kGatherPass);
     views_->bindStorage(kGatherViewsBuffer);
-    atlas_->depths().bindStorage(kGatherDepthsBuffer);
     if constexpr (kLight) {
-      tree_->tree().cones().bindStorage(kGatherConesBuffer);
+      light_->bind(tree_->tree(), *atlas_);
       configureReceivers(*gather_, frame, settings_.part.surface);
       gather_->set("lift", static_cast<float>(receivers_.lift) * tree_->tree().leafRadius());
-      if (atlas_->form() == many_lods::AtlasForm::TwoPasses)
-        atlas_->winners().bindStorage(kGatherWinnersBuffer);
-      light_->values().bindStorage(kGatherColoursBuffer);
+    } else {
+      atlas_->depths().bindStorage(kGatherDepthsBuffer);
     }
     gathered_->bindStorage(kGatheredBuffer);
     gather_->set("side", receivers_.tilePx);
@@ -256,9 +230,9 @@ class Gathering : public Technique {
   std::optional<SceneTree> tree_;
   std::optional<many_lods::MultiCut> cut_;
   std::optional<many_lods::ViewAtlas> atlas_;
-  std::optional<many_lods::ValueTree> light_;
+  std::optional<LitPoints> light_;
   std::optional<gl::Buffer> views_, gathered_;
-  const gl::Program *receiver_ = nullptr, *gather_ = nullptr, *upsample_ = nullptr, *lit_ = nullptr;
+  const gl::Program *receiver_ = nullptr, *gather_ = nullptr, *upsample_ = nullptr;
   std::optional<gl::Texture> picture_;
 };
 

@@ -87,7 +87,7 @@ class ImperfectShadowMaps : public Technique {
     // Discs are larger than leaves, and so is what they are off by.
     radiosity_->shade(frame, lights_->set(), &*atlas_,
                       settings_.bias.of(radius * double(points_->radiusScale()),
-                                        hemispherePixelSlope(settings_.tilePx)));
+                                        hemispherePixelSlope(settings_.tilePx), settings_.tree.discs, 1.0));
   }
 
   const gl::Texture& product() const override { return radiosity_->texture(); }

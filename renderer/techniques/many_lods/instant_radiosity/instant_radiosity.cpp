@@ -113,9 +113,8 @@ class InstantRadiosity : public Technique {
       atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(), discs);
     }
     radiosity_->shade(frame, lights_->set(), &*atlas_,
-                      settings_.bias.of(tree_->tree().leafRadius(),
-                                        hemispherePixelSlope(settings_.tilePx) *
-                                            std::max(settings_.limits.epsilonPx, 1.0)),
+                      settings_.bias.of(tree_->tree().leafRadius(), hemispherePixelSlope(settings_.tilePx),
+                                        settings_.tree.discs, settings_.limits.epsilonPx),
                       inPlace_      ? &inPlace_->countsBuffer()
                       : sequential_ ? &sequential_->countsBuffer()
                                     : nullptr);

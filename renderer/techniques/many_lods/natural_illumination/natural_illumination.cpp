@@ -23,9 +23,28 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char* kSkyShadowPass = "many_lods/polygons";
-/// Distance of views from the scene's middle, diagonals: a parallax of half a diagonal is less than half a
+/// Distance of views from the middle of what they enclose, diagonals: a parallax of half a diagonal is less than half a
 /// degree, and depths keep 2^-17 of the diagonal.
 constexpr double kSkyDistance = 64.0;
+
+/// What views enclose.
+enum class SkyFit { All, Casters };
+constexpr EnumNames<SkyFit, 2> enumNames(SkyFit) {
+  return {{{{SkyFit::All, "all"}, {SkyFit::Casters, "casters"}}}};
+}
+struct SkyMaps {
+  int tilePx = 64;
+  SkyFit fit = SkyFit::All;
+  static const SettingsTable<SkyMaps>& table() {
+    using S = SkyMaps;
+    static const SettingsTable<S> kTable = {
+        {&S::tilePx, "tile", {4, 512}, "px", "Side of a light's shadow map"},
+        {&S::fit, "fit",
+         "What maps enclose: everything, or the parts that cast shadows, where all others are a ground that hides "
+         "no light"}};
+    return kTable;
+  }
+};
 
 struct SkyCuts {
   static constexpr const char *kKind = "cuts", *kSummary = "shadow maps from cuts of a tree of points";
@@ -33,7 +52,7 @@ struct SkyCuts {
   many_lods::CutMode cuts;
   CutLimits limits{2.0, 16384};
   ShadowBias bias;
-  int tilePx = 64;
+  SkyMaps maps;
   static const SettingsTable<SkyCuts>& table() {
     using S = SkyCuts;
     static const SettingsTable<S> kTable = {
@@ -41,19 +60,19 @@ struct SkyCuts {
         {&S::cuts, "cuts", kCutsText, kCutsSource},
         included(&S::limits),
         {&S::bias, "bias", kShadowBiasText},
-        {&S::tilePx, "tile", {4, 512}, "px", "Side of a light's shadow map"}};
+        included(&S::maps)};
     return kTable;
   }
 };
 struct SkyPolygons {
   static constexpr const char *kKind = "polygons", *kSummary = "shadow maps of all triangles";
   double bias = 1.0;
-  int tilePx = 64;
+  SkyMaps maps;
   static const SettingsTable<SkyPolygons>& table() {
     using S = SkyPolygons;
     static const SettingsTable<S> kTable = {
         {&S::bias, "bias", {0.0, 16.0}, "px", "Pixels of the map, times 1 + the surface's slope"},
-        {&S::tilePx, "tile", {4, 512}, "px", "Side of a light's shadow map"}};
+        included(&S::maps)};
     return kTable;
   }
 };
@@ -114,7 +133,8 @@ class NaturalIllumination : public Technique {
       findCuts(frame, false);
       const auto scope = frame.passes().open(kSplatPass);
       atlas_->draw(*cut_, tree_->tree().nodes(), *views_, tree_->discs(0.0));
-      bias = cuts_->bias.of(tree_->tree().leafRadius(), pixelSlope_ * std::max(cuts_->limits.epsilonPx, 1.0));
+      bias = cuts_->bias.of(tree_->tree().leafRadius(), pixelSlope_, cuts_->tree.discs,
+                            cuts_->limits.epsilonPx);
     } else if (polygons_) {
       const auto scope = frame.passes().open(kSkyShadowPass);
       triangles_->draw(frame, *views_, static_cast<uint32_t>(settings_.lights), *atlas_);
@@ -133,14 +153,19 @@ class NaturalIllumination : public Technique {
   }
 
  private:
-  int tilePx() const { return cuts_ ? cuts_->tilePx : polygons_ ? polygons_->tilePx : 64; }
+  SkyMaps maps() const { return cuts_ ? cuts_->maps : polygons_ ? polygons_->maps : SkyMaps{}; }
+  int tilePx() const { return maps().tilePx; }
 
   void makeLights(frame::Frame& frame) {
-    const scene::Bounds bounds = frame.scene().bounds();
+    scene::Bounds bounds = frame.scene().bounds();
+    const double farthest = bounds.diagonal();
+    if (maps().fit == SkyFit::Casters && !frame.scene().casterBounds().empty())
+      bounds = frame.scene().casterBounds();
     const glm::dvec3 middle = bounds.centre() - frame.gpuScene().anchor();
     const double diagonal = std::max(bounds.diagonal(), 1e-30);
     // Of a sphere around everything, with a little room for discs.
-    const double distance = kSkyDistance * diagonal, tangent = 0.51 / std::sqrt(kSkyDistance * kSkyDistance - 0.25);
+    const double distance = kSkyDistance * diagonal,
+                 tangent = 0.51 / std::sqrt(kSkyDistance * kSkyDistance - 0.25);
     const double epsilon = cuts_ ? cuts_->limits.epsilonPx : 1.0;
     std::vector<VirtualLight> lights;
     std::vector<many_lods::CutView> views;
@@ -151,7 +176,7 @@ class NaturalIllumination : public Technique {
           std::abs(light.direction.y) < 0.9 ? glm::dvec3(0.0, -1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
       views.push_back(many_lods::perspectiveView(middle + distance * light.direction, -light.direction, down,
                                                  glm::dvec2(tangent), tilePx(), epsilon,
-                                                 distance + diagonal));
+                                                 distance + farthest));
     }
     lights_.emplace(lights);
     views_.emplace(views);

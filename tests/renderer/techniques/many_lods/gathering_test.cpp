@@ -105,5 +105,27 @@ TEST_F(Gatherings, TheBackOfALitSurfaceIsDark) {
             0.01 * lit);
 }
 
+// Probes: nine terms of the irradiance are within a few percent of all (Ramamoorthi and Hanrahan 2001), and
+// what is left is light that changes between probes. It falls as they come closer. On average it keeps the
+// energy to a tenth.
+TEST_F(Gatherings, LightOfProbesComesToThatOfRaysAsTheyGrowDenser) {
+  const scene::Scene scene = makeScene("cornell_box");
+  const Image truth = render(scene, "many_lods/ray_gathered", {{"rays", int64_t{512}}}, {24, 24}).product;
+  double before = 1e9;
+  for (const int64_t probes : {2, 5, 12}) {
+    const Image found = render(scene, "many_lods/irradiance_volume",
+                               {{"levels", int64_t{13}}, {"room", int64_t{1024}}, {"probes", probes}, {"tile", int64_t{16}}},
+                               {24, 24})
+                            .product;
+    const double error = meanDifference(found, truth);
+    EXPECT_LT(error, before) << probes;
+    before = error;
+    if (probes == 12) {
+      EXPECT_NEAR(meanLight(found), meanLight(truth), 0.1 * meanLight(truth));
+    }
+  }
+  EXPECT_LT(before, 0.3 * meanLight(truth));
+}
+
 }  // namespace
 }  // namespace limen::techniques
