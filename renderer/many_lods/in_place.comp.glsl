@@ -26,9 +26,9 @@ shared uvec2 stack[STACK];
 shared uvec2 finished[FINDERS * FINISHED];
 
 void drawPixel(Disc disc, ivec2 pixel) {
-  const vec2 away = vec2(pixel) + 0.5 - disc.centre;
-  if (dot(away, away) > disc.radius * disc.radius && ivec2(floor(disc.centre)) != pixel) return;
-  atomicMin(depths[(disc.view * uint(tilePx.y) + uint(pixel.y)) * uint(tilePx.x) + uint(pixel.x)], floatBitsToUint(disc.depth));
+  uint depth;
+  if (!coversPixel(disc, pixel, depth)) return;
+  atomicMin(depths[(disc.view * uint(tilePx.y) + uint(pixel.y)) * uint(tilePx.x) + uint(pixel.x)], depth);
 }
 
 // By the whole group: a node each, and the large ones together.

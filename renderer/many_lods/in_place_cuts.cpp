@@ -17,11 +17,13 @@ int64_t sharedBytes(const InPlaceSettings& settings, int depth) {
   return 8 * int64_t{settings.finders} * (1 + depth + settings.finished);
 }
 
-const gl::Program& inPlaceProgram(gl::Context& context, uint32_t stack, const InPlaceSettings& settings) {
+const gl::Program& inPlaceProgram(gl::Context& context, uint32_t stack, const InPlaceSettings& settings,
+                                  Discs discs) {
   gl::ShaderDefines defines = {{"FINDERS", std::to_string(settings.finders)},
                                {"FINISHED", std::to_string(settings.finished)},
                                {"STACK", std::to_string(stack)},
                                {"FLAG_SCAN", std::to_string(flagScanForm(settings.scan))}};
+  defines.merge(discDefines(discs));
   if (settings.discard) defines["DISCARD"] = "1";
   return context.programs().compute("renderer/many_lods/in_place.comp.glsl", defines);
 }
@@ -78,13 +80,14 @@ void InPlaceSettings::check() const {
                 "finished", "lower 'finished' or 'finders'");
 }
 
-InPlaceCuts::InPlaceCuts(gl::Context& context, uint32_t views, int depth, const InPlaceSettings& settings)
+InPlaceCuts::InPlaceCuts(gl::Context& context, uint32_t views, int depth, const InPlaceSettings& settings,
+                         Discs discs)
     : settings_(settings),
       views_(views),
       leaves_(1U << depth),
       stack_(static_cast<uint32_t>(settings.finders * (1 + depth))),
       counts_(int64_t{sizeof(InPlaceCounts)}, nullptr),
-      program_(inPlaceProgram(context, stack_, settings)) {}
+      program_(inPlaceProgram(context, stack_, settings, discs)) {}
 
 void beginInPlace(const gl::Program& program, const gl::Buffer& nodes, const gl::Buffer& views,
                   const ViewAtlas& atlas, const ViewAtlas::Settings& settings, const gl::Buffer& counts) {
@@ -94,6 +97,7 @@ void beginInPlace(const gl::Program& program, const gl::Buffer& nodes, const gl:
   views.bindStorage(kCutViewsBuffer);
   atlas.depths().bindStorage(kSplatDepthsBuffer);
   counts.bindStorage(kInPlaceCountsBuffer);
+  if (settings.cones) settings.cones->bindStorage(kSplatConesBuffer);
   program.set("tilePx", atlas.tilePx());
   program.set("nearest", settings.nearest);
   program.set("radiusScale", settings.radiusScale);

@@ -49,9 +49,10 @@ void beginInPlace(const gl::Program& program, const gl::Buffer& nodes, const gl:
 /// done, and counted; there have been none. Source: Holländer 2013, section 3.7.2.
 class InPlaceCuts {
  public:
-  InPlaceCuts(gl::Context& context, uint32_t views, int depth, const InPlaceSettings& settings);
+  InPlaceCuts(gl::Context& context, uint32_t views, int depth, const InPlaceSettings& settings,
+              Discs discs = Discs::Spheres);
 
-  /// Clears `atlas` and draws the cuts. Binds storage buffers 0, 1, 3 and 5.
+  /// Clears `atlas` and draws the cuts. Binds storage buffers 0, 1, 3, 5 and 7.
   void draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
             const ViewAtlas::Settings& settings) const;
 

@@ -26,7 +26,7 @@ struct CutView {  // std430; vectors relative to the scene's anchor
   vec4 axisX;     // unit; w: tangent of half the field of view (Perspective)
   vec4 axisY;     // unit, down in the tile; w: tangent
   vec4 axisZ;     // unit, into the view; w: kView...
-  vec4 frustum;   // secants of half the fields of view, x and y; z: 1 / range of depths; w: unused
+  vec4 frustum;   // secants of half the fields of view, x and y; z: 1 / range of depths; w: object that it does not show; 0: none
 };
 #ifdef __cplusplus
 static_assert(sizeof(CutView) == 80);
@@ -128,6 +128,8 @@ const int kSmallSplatPx = 64;  // boxes of more pixels are drawn by the whole gr
 const uint kSplatDepthsBuffer = 3u;
 const uint kSplatWinnersBuffer = 4u;
 const uint kSplatColoursBuffer = 6u;
+const uint kSplatOwnersBuffer = 6u;  // not with colours
+const uint kSplatConesBuffer = 7u;
 const uint kAtlasEmpty = 0xffffffffu;
 const float kFarthestDepth = 0.99999988079071045f;  // 1 - 2^-23: what lies farther, too
 

@@ -30,10 +30,9 @@ void main() {
         boxOf(disc, low, high);
         for (int y = low.y; y <= high.y; ++y)
           for (int x = low.x; x <= high.x; ++x) {
-            const vec2 away = vec2(x, y) + 0.5 - disc.centre;
-            if (dot(away, away) > disc.radius * disc.radius && ivec2(floor(disc.centre)) != ivec2(x, y)) continue;
+            uint depth;
+            if (!coversPixel(disc, ivec2(x, y), depth)) continue;
             const uint at = (number * uint(tilePx.y) + uint(y)) * uint(tilePx.x) + uint(x);
-            const uint depth = floatBitsToUint(disc.depth);
             if (depth < depths[at]) depths[at] = depth;  // its own tile
           }
       }

@@ -12,11 +12,11 @@ const SettingsTable<SequentialSettings>& SequentialSettings::table() {
   return kTable;
 }
 
-SequentialCuts::SequentialCuts(gl::Context& context, uint32_t views, int depth)
+SequentialCuts::SequentialCuts(gl::Context& context, uint32_t views, int depth, Discs discs)
     : views_(views),
       leaves_(1U << depth),
       counts_(int64_t{sizeof(InPlaceCounts)}, nullptr),
-      program_(context.programs().compute("renderer/many_lods/sequential.comp.glsl")) {}
+      program_(context.programs().compute("renderer/many_lods/sequential.comp.glsl", discDefines(discs))) {}
 
 void SequentialCuts::draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
                           const ViewAtlas::Settings& settings) const {

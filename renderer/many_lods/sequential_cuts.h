@@ -21,8 +21,8 @@ struct SequentialSettings {
 /// Ritschel and others 2009; Holländer 2013, section 3.5.1.
 class SequentialCuts {
  public:
-  SequentialCuts(gl::Context& context, uint32_t views, int depth);
-  /// Clears `atlas` and draws the cuts. Binds storage buffers 0, 1, 3 and 5.
+  SequentialCuts(gl::Context& context, uint32_t views, int depth, Discs discs = Discs::Spheres);
+  /// Clears `atlas` and draws the cuts. Binds storage buffers 0, 1, 3, 5 and 7.
   void draw(const gl::Buffer& nodes, const gl::Buffer& views, const ViewAtlas& atlas,
             const ViewAtlas::Settings& settings) const;
   const gl::Buffer& countsBuffer() const { return counts_; }  ///< InPlaceCounts: drawn and unfinished (views)

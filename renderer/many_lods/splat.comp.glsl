@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the nodes of a list of cuts into their views' tiles as discs, the projections of their spheres. FORM: what is kept of the
-// nearest (view_atlas.h). WINNERS: second pass of kFormTwoPasses.
+// nearest (view_atlas.h). WINNERS: second pass of kFormTwoPasses. ORIENTED: splat_disc.glsl. OWNERS: nodes of a view's own
+// object are left out.
 #if FORM == 2
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
@@ -25,13 +26,25 @@ layout(std430, binding = kSplatWinnersBuffer) buffer Winners { uint winners[]; }
 layout(std430, binding = kSplatColoursBuffer) readonly buffer Colours { uvec2 colours[]; };
 #endif
 
+#ifdef OWNERS
+layout(std430, binding = kSplatOwnersBuffer) readonly buffer Owners { uint owners[]; };  // of nodes; 0: none, or several
+#endif
+
 #include "renderer/many_lods/splat_disc.glsl"
 
+bool isOwn(uvec2 entry) {
+#ifdef OWNERS
+  const uint owner = uint(views[entry.y & ~kEntryDone].frustum.w);
+  return owner != 0u && owners[entry.x] == owner;
+#else
+  return false;
+#endif
+}
+
 void cover(Disc disc, ivec2 pixel) {
-  const vec2 away = vec2(pixel) + 0.5 - disc.centre;
-  if (dot(away, away) > disc.radius * disc.radius && ivec2(floor(disc.centre)) != pixel) return;
+  uint depth;
+  if (!coversPixel(disc, pixel, depth)) return;
   const uint at = (disc.view * uint(tilePx.y) + uint(pixel.y)) * uint(tilePx.x) + uint(pixel.x);
-  const uint depth = floatBitsToUint(disc.depth);
 #if FORM == 0
   atomicMin(depths[at], depth);
 #elif FORM == 1
@@ -46,7 +59,7 @@ void cover(Disc disc, ivec2 pixel) {
   const uvec2 halves = colours[disc.node];
   const vec3 colour = clamp(vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x), 0.0, 1.0);
   const uvec3 bytes = uvec3(round(colour * 255.0));
-  const uvec2 words = packedSplat(disc.depth, bytes.x | bytes.y << 8u | bytes.z << 16u);
+  const uvec2 words = packedSplat(uintBitsToFloat(depth), bytes.x | bytes.y << 8u | bytes.z << 16u);
   atomicMin(depths[at], words.x);
   atomicMin(winners[at], words.y);
 #endif
@@ -62,7 +75,7 @@ void main() {
     if (me == 0u) largeCount = 0u;
     barrier();
     Disc disc;
-    if (first + me < count && discOf(list[at + first + me], disc)) {
+    if (first + me < count && !isOwn(list[at + first + me]) && discOf(list[at + first + me], disc)) {
       ivec2 low, high;
       boxOf(disc, low, high);
       const ivec2 size = max(high - low + 1, ivec2(0));

@@ -27,14 +27,22 @@ AtlasForm formFor(AtlasForm form) {
 
 }  // namespace
 
+gl::ShaderDefines discDefines(Discs discs) {
+  if (discs == Discs::Oriented) return {{"ORIENTED", "1"}};
+  return {};
+}
+
 bool hasWideAtomics() {
   return epoxy_has_gl_extension("GL_NV_shader_atomic_int64") &&
          epoxy_has_gl_extension("GL_ARB_gpu_shader_int64");
 }
 
-ViewAtlas::ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form)
+ViewAtlas::ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form, Discs discs,
+                     bool leavesOwnOut)
     : form_(formFor(form)), tilePx_(tilePx), depths_(atlasBytes(views, tilePx, form_), nullptr) {
-  const gl::ShaderDefines defines = {{"FORM", std::to_string(static_cast<int>(form_))}};
+  gl::ShaderDefines defines = discDefines(discs);
+  if (leavesOwnOut) defines["OWNERS"] = "1";
+  defines["FORM"] = std::to_string(static_cast<int>(form_));
   const std::string path = "renderer/many_lods/splat.comp.glsl";
   first_ = &context.programs().compute(path, defines);
   if (form_ == AtlasForm::TwoPasses) {
@@ -63,6 +71,8 @@ void ViewAtlas::draw(const DrawList& what, const gl::Buffer& nodes, const gl::Bu
   depths_.bindStorage(kSplatDepthsBuffer);
   if (winners_) winners_->bindStorage(kSplatWinnersBuffer);
   if (colours) colours->bindStorage(kSplatColoursBuffer);
+  if (settings.owners) settings.owners->bindStorage(kSplatOwnersBuffer);
+  if (settings.cones) settings.cones->bindStorage(kSplatConesBuffer);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   for (const gl::Program* program : {first_, second_}) {
     if (!program) continue;

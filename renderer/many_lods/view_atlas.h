@@ -9,6 +9,7 @@
 #include "experiments/base/enum_names.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
+#include "renderer/gl/shader_source.h"
 #include "renderer/many_lods/multi_cut.h"
 
 namespace limen::many_lods {
@@ -27,6 +28,16 @@ constexpr EnumNames<AtlasForm, 4> enumNames(AtlasForm) {
             {AtlasForm::TwoWords, "two_words"}}}};
 }
 
+/// What stands for a node in a tile.
+enum class Discs {
+  Spheres,  ///< the disc that its sphere projects to, at one depth, and at least a pixel
+  Oriented  ///< the disc in the plane of its normals, as pixels' middles see it: surfaces grow less, and have
+            ///< the depth of their planes
+};
+constexpr EnumNames<Discs, 2> enumNames(Discs) {
+  return {{{{Discs::Spheres, "spheres"}, {Discs::Oriented, "oriented"}}}};
+}
+
 /// What is drawn: entries as in a list of cuts, and a CutControl that has their number, their place and the
 /// arguments of a dispatch over them.
 struct DrawList {
@@ -38,17 +49,22 @@ struct DrawList {
 /// its sphere projects to (a hemisphere's projection is stereographic, so that it is a disc; in a perspective
 /// view it is one of the middle's size), and at least the pixel that its centre is in. No pixel of another
 /// tile is written. Depth: distance of the sphere's centre from the eye in a hemisphere, along the axis in a
-/// perspective view, over the view's range; what lies farther has kFarthestDepth. Source: Holländer 2013,
+/// perspective view, over the view's range; what lies farther has kFarthestDepth. Discs::Oriented: of the
+/// disc's plane where a pixel's middle sees it. Source: Holländer 2013,
 /// sections 3.5.3 and 3.7.2; the projections are the bench's own, as the thesis names none.
 class ViewAtlas {
  public:
-  /// Wide becomes TwoPasses where the driver lacks 64-bit atomic operations. Throws Error if the device
+  /// `leavesOwnOut`: nodes of the object that a view belongs to (CutView::frustum.w) are not drawn; not
+  /// TwoWords. Wide becomes TwoPasses where the driver lacks 64-bit atomic operations. Throws Error if the device
   /// cannot hold it.
-  ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form);
+  ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form,
+            Discs discs = Discs::Spheres, bool leavesOwnOut = false);
 
   struct Settings {
     float nearest = 0.0F;      ///< nodes whose centres are nearer are left out, world units
     float radiusScale = 1.0F;  ///< of discs over spheres
+    const gl::Buffer* cones = nullptr;  ///< of the nodes (GpuTree::cones()); Discs::Oriented only
+    const gl::Buffer* owners = nullptr;  ///< of the nodes: number of an object or 0; `leavesOwnOut` only
   };
   /// Clears the tiles and draws a list. `colours`: of the nodes, four halves each; TwoWords only.
   void draw(const DrawList& what, const gl::Buffer& nodes, const gl::Buffer& views, const Settings& settings,
@@ -77,5 +93,7 @@ class ViewAtlas {
 };
 
 bool hasWideAtomics();
+/// For programs that include splat_disc.glsl.
+gl::ShaderDefines discDefines(Discs discs);
 
 }  // namespace limen::many_lods

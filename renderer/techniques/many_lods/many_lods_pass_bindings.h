@@ -21,13 +21,16 @@ const uint kPointsImage = 0u;
 
 // Virtual point lights.
 struct VirtualLight {  // std430; relative to the anchor
-  vec4 position;       // w: 1; 0: there is no light, as its ray met nothing
+  vec4 position;       // w: kLight...; of a distant one the unit vector towards it
   vec4 normal;         // unit, on the lit side; w: number of its triangle, as bits
-  vec4 flux;           // that leaves it [W]; w: unused
+  vec4 flux;           // that leaves it [W], of a distant one its irradiance [W / m^2]; w: unused
 };
 #ifdef __cplusplus
 static_assert(sizeof(VirtualLight) == 48);
 #endif
+const float kLightNone = 0.0f;  // its ray met nothing
+const float kLightPoint = 1.0f;
+const float kLightDistant = 2.0f;
 const int kVirtualLightsGroup = 64;
 const uint kVirtualLightsBuffer = 0u;  // 2 and 5 are the surfaces', 6 and 7 the rays'
 const uint kVirtualViewsBuffer = 1u;
@@ -49,6 +52,42 @@ const uint kRadiosityImage = 0u;
 const uint kLitSamplesBuffer = 3u;
 const uint kLitColoursBuffer = 4u;
 
+// Triangles in tiles. 0 and 1 are the scene's.
+const int kPolygonGroup = 128;
+const int kSmallPolygonPx = 64;  // boxes of more pixels are drawn by the whole group
+const uint kPolygonViewsBuffer = 2u;
+const uint kPolygonDepthsBuffer = 3u;
+
+// Light that rays gather. 0, 1, 2 and 5 are the scene's, 6 and 7 the rays'.
+const uint kRayGatherPositionsUnit = 0u;
+const uint kRayGatherNormalsUnit = 1u;
+const uint kRayGatherAlbedosUnit = 2u;
+const uint kRayGatherIdsUnit = 3u;
+const uint kRayGatherSumsImage = 0u;
+const uint kRayGatherSumsUnit = 0u;
+const uint kRayGatherImage = 1u;
+
+// Probes. Otherwise as what views gather.
+const int kProbeTerms = 9;  // spherical harmonics up to the second order
+const uint kProbesBuffer = 4u;
+const uint kProbeImage = 0u;
+
+// Maps of what objects reflect.
+const uint kMapViewsBuffer = 0u;
+const uint kMapDepthsBuffer = 1u;
+const uint kMapWinnersBuffer = 2u;
+const uint kMapColoursBuffer = 3u;
+const uint kMapOriginsUnit = 0u;
+const uint kMapDirectionsUnit = 1u;
+const uint kMapIdsUnit = 2u;
+const uint kMapObjectsUnit = 3u;
+const uint kMapPixelsUnit = 4u;
+const uint kMapReflectedImage = 0u;
+const uint kTracedMapViewsUnit = 0u;
+const uint kTracedMapImage = 1u;
+const int kMapRow = 32;            // views beside each other in a texture of maps
+const int kMapObjectsWidth = 1024;  // of a texture of triangles' objects
+
 // What views of receivers gather.
 const int kGatherGroup = 64;
 const uint kGatherViewsBuffer = 0u;
@@ -56,6 +95,7 @@ const uint kGatherDepthsBuffer = 1u;
 const uint kGatherWinnersBuffer = 2u;
 const uint kGatherColoursBuffer = 3u;
 const uint kGatheredBuffer = 4u;
+const uint kGatherConesBuffer = 5u;
 const uint kGatherPositionsUnit = 0u;
 const uint kGatherNormalsUnit = 1u;
 const uint kGatherAlbedosUnit = 2u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light that virtual point lights send to what the camera sees, and that it reflects. TRACED: seen along rays; else as the tiles of
-// their views have it.
+// Light that virtual lights send to what the camera sees, and that it reflects: of some of the lights, added to what the picture
+// holds. TRACED: seen along rays; else as the tiles of their views have it.
 #include "renderer/many_lods/many_lods_bindings.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
@@ -21,14 +21,18 @@ layout(binding = kRadiosityPositionsUnit) uniform sampler2D positions;
 layout(binding = kRadiosityNormalsUnit) uniform sampler2D normals;
 layout(binding = kRadiosityAlbedosUnit) uniform sampler2D albedos;
 layout(binding = kRadiosityIdsUnit) uniform usampler2D triangleIds;
-layout(binding = kRadiosityImage, rgba32f) uniform writeonly image2D picture;
+layout(binding = kRadiosityImage, rgba32f) uniform image2D picture;
 
 uniform ivec2 sizePx;
-uniform uint lightCount;
+uniform uint firstLight, lightCount;  // the last one of this pass, and one more
+uniform vec3 eyePosition;              // relative to the anchor
 uniform float leastDistance2;
 uniform float depthBias;  // world units
 uniform float slopeBias;  // share of the distance, for a surface at 45 degrees
 uniform int side;         // of a tile, px
+uniform float distantNear;  // distance from a surface within which nothing hides distant lights, world units
+
+#include "renderer/techniques/many_lods/glossy.glsl"
 
 shared VirtualLight batch[kRadiosityBatch];
 
@@ -37,38 +41,66 @@ uint lightTriangle = 0u;
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return hit.triangle != lightTriangle; }
 
 float seen(uint number, VirtualLight light, vec3 position, vec3 normal, uint triangle) {
-  lightTriangle = floatBitsToUint(light.normal.w);
-  const vec3 path = light.position.xyz - position;
+  ++rayIterations;
   // Both ends lie on surfaces: what is within a ten-thousandth of either is no occluder.
-  return rayAnyHit(Ray(position, path, 1e-4, 1.0 - 1e-4, triangle)) ? 0.0 : 1.0;
+  if (light.position.w == kLightPoint) {
+    lightTriangle = floatBitsToUint(light.normal.w);
+    return rayAnyHit(Ray(position, light.position.xyz - position, 1e-4, 1.0 - 1e-4, triangle)) ? 0.0 : 1.0;
+  }
+  lightTriangle = triangle;
+  return rayAnyHit(Ray(position, light.position.xyz, distantNear, kRayFarthest, triangle)) ? 0.0 : 1.0;
 }
 #else
 float seen(uint number, VirtualLight light, vec3 position, vec3 normal, uint triangle) {
   const CutView view = views[number];
   const vec3 v = position - view.eye.xyz;
   const float distance_ = length(v);
-  const float depth = dot(v, view.axisZ.xyz);
-  if (!(depth > -0.5 * distance_)) return 1.0;
-  const vec2 at = vec2(dot(v, view.axisX.xyz), dot(v, view.axisY.xyz)) / (distance_ + depth);
+  const vec3 along = vec3(dot(v, view.axisX.xyz), dot(v, view.axisY.xyz), dot(v, view.axisZ.xyz));
+  vec2 at;
+  float own;
+  if (view.axisZ.w == float(kViewHemisphere)) {
+    if (!(along.z > -0.5 * distance_)) return 1.0;
+    at = along.xy / (distance_ + along.z);
+    own = distance_;
+  } else {
+    at = along.xy / (along.z * vec2(view.axisX.w, view.axisY.w));
+    if (!(along.z > 0.0) || any(greaterThan(abs(at), vec2(1.0)))) return 1.0;
+    own = along.z;
+  }
   const ivec2 pixel = clamp(ivec2(floor((0.5 + 0.5 * at) * float(side))), ivec2(0), ivec2(side - 1));
   const uint nearest = depths[(number * uint(side) + uint(pixel.y)) * uint(side) + uint(pixel.x)];
   if (nearest == kAtlasEmpty) return 1.0;
-  // Discs have one depth: that of a slanted surface differs from it by the tangent of its slope.
+  // A pixel has the depth of its middle, or of a disc's: that of a slanted surface differs from it by the tangent of its slope.
   const float cosine = clamp(abs(dot(v, normal)) / max(distance_, 1e-30), 0.0, 1.0);
   const float slope = min(sqrt(1.0 - cosine * cosine) / max(cosine, 1e-3), kRadiosityMostSlope);
   const float bias = depthBias + slopeBias * distance_ * (1.0 + slope);
-  return uintBitsToFloat(nearest) < (distance_ - bias) * view.frustum.z ? 0.0 : 1.0;
+  return uintBitsToFloat(nearest) < (own - bias) * view.frustum.z ? 0.0 : 1.0;
 }
 #endif
+
+// Irradiance of a white surface that faces the light, and the unit vector towards it.
+vec3 arriving(VirtualLight light, vec3 position, out vec3 towards) {
+  if (light.position.w == kLightDistant) {
+    towards = light.position.xyz;
+    return light.flux.rgb;
+  }
+  const vec3 path = light.position.xyz - position;
+  const float distance2 = dot(path, path);
+  towards = path * inversesqrt(max(distance2, 1e-37));
+  // Its intensity is flux cos / pi.
+  return light.flux.rgb * (0.31830989 * max(-dot(towards, light.normal.xyz), 0.0) / max(distance2, leastDistance2));
+}
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   const bool inside = all(lessThan(pixel, sizePx));
   const vec4 position = inside ? texelFetch(positions, pixel, 0) : vec4(0.0);
   const vec3 normal = inside ? texelFetch(normals, pixel, 0).xyz : vec3(0.0);
+  const vec3 albedo = inside ? texelFetch(albedos, pixel, 0).rgb : vec3(0.0);
   const uint triangle = inside ? texelFetch(triangleIds, pixel, 0).x : 0u;
+  const vec3 view = normalize(eyePosition - position.xyz);
   vec3 sum = vec3(0.0);
-  for (uint first = 0u; first < lightCount; first += uint(kRadiosityBatch)) {
+  for (uint first = firstLight; first < lightCount; first += uint(kRadiosityBatch)) {
     barrier();
     if (gl_LocalInvocationIndex < uint(kRadiosityBatch) && first + gl_LocalInvocationIndex < lightCount)
       batch[gl_LocalInvocationIndex] = lights[first + gl_LocalInvocationIndex];
@@ -77,13 +109,12 @@ void main() {
     const uint here = min(uint(kRadiosityBatch), lightCount - first);
     for (uint i = 0u; i < here; ++i) {
       const VirtualLight light = batch[i];
-      if (light.position.w == 0.0) continue;
-      const vec3 path = light.position.xyz - position.xyz;
-      const float distance2 = dot(path, path);
-      const float cosines = dot(path, normal) * -dot(path, light.normal.xyz);
-      if (!(dot(path, normal) > 0.0) || !(cosines > 0.0)) continue;
-      const float share = cosines / (distance2 * max(distance2, leastDistance2));
-      sum += light.flux.rgb * (share * seen(first + i, light, position.xyz, normal, triangle));
+      if (light.position.w == kLightNone) continue;
+      vec3 towards;
+      const vec3 irradiance = arriving(light, position.xyz, towards);
+      const vec3 share = reflectedShare(albedo, normal, view, towards) * irradiance;
+      if (!(share.r + share.g + share.b > 0.0)) continue;
+      sum += share * seen(first + i, light, position.xyz, normal, triangle);
     }
   }
   if (!inside) return;
@@ -93,7 +124,6 @@ void main() {
 #ifdef IN_PLACE
   if (counts.unfinished != 0u) sum = vec3(uintBitsToFloat(0x7fc00000u));
 #endif
-  // A light's intensity is flux cos / pi, a diffuse surface reflects albedo / pi.
-  const vec3 albedo = texelFetch(albedos, pixel, 0).rgb;
-  imageStore(picture, pixel, vec4(sum * albedo * (0.10132118 * position.w), 1.0));
+  const vec3 before = firstLight == 0u ? vec3(0.0) : imageLoad(picture, pixel).rgb;
+  imageStore(picture, pixel, vec4(before + sum * position.w, 1.0));
 }

@@ -41,7 +41,9 @@ const SettingsTable<TreeSettings>& TreeSettings::table() {
        "Holländer 2013, section 3.5.3 (a radius from the density; the factor is not given)"},
       {&S::seed, "seed", {0, 1000000}, "", "Seed of the points' places"},
       {&S::update, "update", "Bring the tree up to date in each frame even if nothing moves",
-       "Holländer 2013, section 3.5.3"}};
+       "Holländer 2013, section 3.5.3"},
+      {&S::discs, "discs", "What stands for a node in a view",
+       "Holländer 2013, section 3.4.1 (cones of normals); the thesis draws points as large as spheres"}};
   return kTable;
 }
 
@@ -87,7 +89,13 @@ SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings, bool bal
 void SceneTree::update(frame::Frame& frame) const {
   if (!settings_.update && frame.scene().motions.empty()) return;
   const auto scope = frame.passes().open(kUpdatePass);
-  tree_->update(frame.positions(), frame.gpuScene().indices());
+  tree_->update(frame.positions(), frame.gpuScene().indices(), settings_.discs == many_lods::Discs::Oriented);
+}
+
+many_lods::ViewAtlas::Settings SceneTree::discs(double nearest, float radiusScale) const {
+  return {.nearest = static_cast<float>(nearest) * tree_->leafRadius(),
+          .radiusScale = radiusScale,
+          .cones = settings_.discs == many_lods::Discs::Oriented ? &tree_->cones() : nullptr};
 }
 
 TreeLight::TreeLight(frame::Frame& frame, const many_lods::GpuTree& tree, const frame::ShadedSetting& shading)

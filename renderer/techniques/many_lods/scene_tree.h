@@ -12,6 +12,7 @@
 #include "renderer/many_lods/gpu_tree.h"
 #include "renderer/many_lods/multi_cut.h"
 #include "renderer/many_lods/value_tree.h"
+#include "renderer/many_lods/view_atlas.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -22,6 +23,7 @@ struct TreeSettings {
   double leafScale = 2.0;
   int64_t seed = 1;
   bool update = true;
+  many_lods::Discs discs = many_lods::Discs::Oriented;
   static const SettingsTable<TreeSettings>& table();
 };
 
@@ -46,6 +48,8 @@ class SceneTree {
 
   const many_lods::GpuTree& tree() const { return *tree_; }
   double buildMs() const { return buildMs_; }
+  /// For drawing: nodes nearer than `nearest` radii of leaves are left out.
+  many_lods::ViewAtlas::Settings discs(double nearest, float radiusScale = 1.0F) const;
 
  private:
   TreeSettings settings_;

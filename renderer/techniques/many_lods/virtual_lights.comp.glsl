@@ -41,7 +41,7 @@ void main() {
     normal = reach > 0.0 ? normalize(hitWinding / reach) : -direction;
     if (dot(normal, direction) > 0.0) normal = -normal;
     const vec3 position = lightCentre + hit.t * direction;
-    light.position = vec4(position, 1.0);
+    light.position = vec4(position, kLightPoint);
     light.normal = vec4(normal, uintBitsToFloat(hit.triangle));
     light.flux = vec4(fluxOfRay * surfaceMaterials[surfaceMaterialOf[hit.triangle]].albedo, 0.0);
     view.eye.xyz = position + lift * normal;

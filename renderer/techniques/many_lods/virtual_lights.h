@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/techniques/many_lods/radiosity.h"
 
 namespace limen::techniques {
 
@@ -32,12 +33,11 @@ class VirtualLights {
   /// above the surface at which these stand.
   void make(frame::Frame& frame, int step, int tilePx, double epsilonPx, double lift) const;
 
+  LightSet set() const { return {lights_, views_, count(), leastDistance2_}; }
   const gl::Buffer& lights() const { return lights_; }  ///< VirtualLight each
   const gl::Buffer& views() const { return views_; }    ///< CutView each
   uint32_t count() const { return static_cast<uint32_t>(settings_.count); }
   double range() const { return range_; }  ///< of depths in views, world units
-  /// Least squared distance that light is computed for.
-  double leastDistance2() const { return leastDistance2_; }
 
  private:
   VirtualLightSettings settings_;

@@ -12,15 +12,16 @@
 
 #include "renderer/frame/g_buffer.h"
 #include "renderer/many_lods/view_atlas.h"
-#include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/techniques/many_lods/lit_points.h"
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
+#include "renderer/techniques/many_lods/receiver_surface.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
 
 namespace limen::techniques {
 namespace {
 
 constexpr const char *kReceiversPass = "many_lods/receivers", *kGatherPass = "many_lods/gather",
-                     *kUpsamplePass = "many_lods/upsample", *kLitPass = "many_lods/lit_points";
+                     *kUpsamplePass = "many_lods/upsample";
 const std::string kGatheringFolder = "renderer/techniques/many_lods/gathering/";
 
 struct ReceiverSettings {
@@ -29,8 +30,8 @@ struct ReceiverSettings {
   CutLimits limits{1.0, 4096};
   int tilePx = 16;
   int spacing = 1;
-  double lift = 2.0;
-  double nearest = 2.0;
+  double lift = 0.5;
+  double nearest = 0.5;
   double normalPower = 8.0;
   double planeTolerance = 0.01;
   static const SettingsTable<ReceiverSettings>& table() {
@@ -46,7 +47,7 @@ struct ReceiverSettings {
          "px",
          "Distance between receivers; those between are interpolated",
          "Holländer 2013, section 3.6.1"},
-        {&S::lift, "lift", {1.0, 64.0}, "", "Height of a view above its surface, radii of leaves"},
+        {&S::lift, "lift", {0.0, 64.0}, "", "Height of a view above its surface, radii of leaves"},
         {&S::nearest, "nearest", {0.0, 64.0}, "", "Nodes nearer than this are not seen, radii of leaves"},
         {&S::normalPower,
          "normal_power",
@@ -78,13 +79,15 @@ struct GatheredOcclusion {
 };
 struct GatheredLight {
   double gain = 10.0;
+  ReceiverSurface surface;
   static const SettingsTable<GatheredLight>& table() {
     static const SettingsTable<GatheredLight> kTable = {
         {&GatheredLight::gain,
          "gain",
          {0.0, 1000.0},
          "",
-         "Factor on the light, for pictures of a useful brightness"}};
+         "Factor on the light, for pictures of a useful brightness"},
+        {&GatheredLight::surface, "receivers", kReceiverText}};
     return kTable;
   }
 };
@@ -114,20 +117,17 @@ class Gathering : public Technique {
     cut_.emplace(frame.context(), views, tree_->tree().depth(), receivers_.limits.capacity(views),
                  receivers_.cuts);
     atlas_.emplace(frame.context(), views, glm::ivec2(receivers_.tilePx),
-                   kLight ? many_lods::AtlasForm::Wide : many_lods::AtlasForm::Depth);
+                   kLight ? many_lods::AtlasForm::Wide : many_lods::AtlasForm::Depth,
+                   receivers_.tree.discs);
     views_.emplace(views * int64_t{sizeof(many_lods::CutView)}, nullptr);
-    gathered_.emplace(views * int64_t{16}, nullptr);
+    gathered_.emplace(views * int64_t{kLight ? 32 : 16}, nullptr);
     gl::ProgramCache& cache = frame.context().programs();
     gl::ShaderDefines defines = {{"FORM", std::to_string(static_cast<int>(atlas_->form()))}};
     if (kLight) defines["LIGHT"] = "1";
     receiver_ = &cache.compute(kGatheringFolder + "receiver_views.comp.glsl");
     gather_ = &cache.compute(kGatheringFolder + "gather.comp.glsl", defines);
     upsample_ = &cache.compute(kGatheringFolder + "upsample.comp.glsl", defines);
-    if (kLight) {
-      lit_ = &cache.compute(kGatheringFolder + "lit_leaves.comp.glsl");
-      light_.emplace(frame.context(), tree_->tree().depth());
-      frame.passes().setBytesHeld(kLitPass, light_->values().bytes());
-    }
+    if (kLight) light_.emplace(frame, tree_->tree());
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
     frame.passes().setBytesHeld(kReceiversPass, views_->bytes());
     frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
@@ -138,12 +138,11 @@ class Gathering : public Technique {
 
   void render(frame::Frame& frame) override {
     tree_->update(frame);
-    if (kLight) lightPoints(frame);
+    if constexpr (kLight) light_->make(frame, tree_->tree(), settings_.part.gain);
     findCuts(frame, false);
     {
       const auto scope = frame.passes().open(kSplatPass);
-      atlas_->draw(*cut_, tree_->tree().nodes(), *views_,
-                   {.nearest = static_cast<float>(receivers_.nearest) * tree_->tree().leafRadius()});
+      atlas_->draw(*cut_, tree_->tree().nodes(), *views_, tree_->discs(receivers_.nearest));
     }
     gather(frame);
     const gl::Texture& positions = channel(frame, frame::Channel::Position);
@@ -156,6 +155,8 @@ class Gathering : public Technique {
     gathered_->bindStorage(kGatheredBuffer);
     picture_->bindImage(kGatherImage, gl::Access::Write);
     setGrid(*upsample_, frame);
+    if constexpr (kLight)
+      upsample_->set("glossShare", static_cast<float>(settings_.part.surface.gloss));
     upsample_->set("normalPower", static_cast<float>(receivers_.normalPower));
     upsample_->set("planeTolerance",
                    static_cast<float>(receivers_.planeTolerance * frame.gpuScene().diagonal()));
@@ -181,26 +182,6 @@ class Gathering : public Technique {
     program.set("spacing", receivers_.spacing);
   }
 
-  void lightPoints(frame::Frame& frame) {
-    const auto scope = frame.passes().open(kLitPass);
-    const scene::AreaLight& light = frame.scene().lights[0];
-    const uint32_t leaves = 1U << tree_->tree().depth();
-    frame.bindSurfaces();
-    frame.geometry().bindStorage();
-    frame.gpuScene().rays(frame.context()).bind(*lit_);
-    tree_->tree().samples().bindStorage(kLitSamplesBuffer);
-    light_->values().bindStorage(kLitColoursBuffer);
-    lit_->set("leaves", leaves);
-    lit_->set("lightCentre", glm::vec3(light.centre - frame.gpuScene().anchor()));
-    lit_->set("lightZ", glm::vec3(light.direction()));
-    if constexpr (kLight)
-      lit_->set("intensity",
-                light.parts[0].radiance * static_cast<float>(settings_.part.gain * light.area()));
-    lit_->use();
-    glDispatchCompute((leaves + kLeafColoursGroup - 1) / kLeafColoursGroup, 1, 1);
-    light_->average();
-  }
-
   void findCuts(frame::Frame& frame, bool counting) {
     const gl::Texture& positions = channel(frame, frame::Channel::Position);
     const gl::Texture& normals = channel(frame, frame::Channel::Normal);
@@ -224,11 +205,13 @@ class Gathering : public Technique {
 
   void gather(frame::Frame& frame) {
     const auto scope = frame.passes().open(kGatherPass);
-    atlas_->depths().bindStorage(kGatherDepthsBuffer);
-    if (kLight) {
-      if (atlas_->form() == many_lods::AtlasForm::TwoPasses)
-        atlas_->winners().bindStorage(kGatherWinnersBuffer);
-      light_->values().bindStorage(kGatherColoursBuffer);
+    views_->bindStorage(kGatherViewsBuffer);
+    if constexpr (kLight) {
+      light_->bind(tree_->tree(), *atlas_);
+      configureReceivers(*gather_, frame, settings_.part.surface);
+      gather_->set("lift", static_cast<float>(receivers_.lift) * tree_->tree().leafRadius());
+    } else {
+      atlas_->depths().bindStorage(kGatherDepthsBuffer);
     }
     gathered_->bindStorage(kGatheredBuffer);
     gather_->set("side", receivers_.tilePx);
@@ -247,15 +230,15 @@ class Gathering : public Technique {
   std::optional<SceneTree> tree_;
   std::optional<many_lods::MultiCut> cut_;
   std::optional<many_lods::ViewAtlas> atlas_;
-  std::optional<many_lods::ValueTree> light_;
+  std::optional<LitPoints> light_;
   std::optional<gl::Buffer> views_, gathered_;
-  const gl::Program *receiver_ = nullptr, *gather_ = nullptr, *upsample_ = nullptr, *lit_ = nullptr;
+  const gl::Program *receiver_ = nullptr, *gather_ = nullptr, *upsample_ = nullptr;
   std::optional<gl::Texture> picture_;
 };
 
 const RegisteredTechnique<Gathering<GatheredOcclusion>> kViewOcclusion{
     {.name = "many_lods/ambient_occlusion",
-     .version = 1,
+     .version = 2,
      .summary = "Ambient occlusion from a small view at every pixel or every so many, drawn from cuts for "
                 "all of them",
      .source = "Holländer 2013, section 3.6.1 (HOL-34)",
@@ -265,7 +248,7 @@ const RegisteredTechnique<Gathering<GatheredOcclusion>> kViewOcclusion{
 
 const RegisteredTechnique<Gathering<GatheredLight>> kPointBasedLight{
     {.name = "many_lods/point_based",
-     .version = 1,
+     .version = 2,
      .summary =
          "One bounce of light from a small view at every pixel or every so many, drawn from lit points",
      .source = "Holländer 2013, section 3.6.1 (HOL-28)",

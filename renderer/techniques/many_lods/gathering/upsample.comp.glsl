@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What receivers have gathered, for all pixels: of the four around a pixel, weighted by their place, and by how well normal and plane
-// agree with the pixel's. LIGHT: times the surface's albedo.
+// agree with the pixel's. LIGHT: times the surface's albedo, and what its lobe reflects.
 #include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
@@ -14,6 +14,9 @@ layout(binding = kGatherImage, rgba32f) uniform writeonly image2D picture;
 
 uniform ivec2 sizePx, gridSize;
 uniform int spacing;
+#ifdef LIGHT
+uniform float glossShare;
+#endif
 uniform float normalPower, planeTolerance;  // world units
 
 void main() {
@@ -33,6 +36,9 @@ void main() {
   const ivec2 first = ivec2(floor(at));
   const vec2 part = at - vec2(first);
   vec3 sum = vec3(0.0), nearest = vec3(0.0);
+#ifdef LIGHT
+  const vec3 albedo = (1.0 - glossShare) * texelFetch(albedos, pixel, 0).rgb;
+#endif
   float total = 0.0, best = -1.0;
   for (int i = 0; i < 4; ++i) {
     const ivec2 offset = ivec2(i & 1, i >> 1);
@@ -40,7 +46,10 @@ void main() {
     const ivec2 from = min(cell * spacing + spacing / 2, sizePx - 1);
     const vec4 there = texelFetch(positions, from, 0);
     if (there.w == 0.0) continue;
-    const vec3 value = gathered[cell.y * gridSize.x + cell.x].rgb;
+    vec3 value = gathered[cell.y * gridSize.x + cell.x].rgb;
+#ifdef LIGHT
+    value = value * albedo + gathered[gridSize.x * gridSize.y + cell.y * gridSize.x + cell.x].rgb;
+#endif
     const vec2 place = mix(1.0 - part, part, vec2(offset));
     const float agreement = pow(max(dot(normal, texelFetch(normals, from, 0).xyz), 0.0), normalPower) *
                             exp(-abs(dot(normal, there.xyz - position.xyz)) / planeTolerance);
@@ -49,9 +58,5 @@ void main() {
     total += weight;
     if (agreement > best) best = agreement, nearest = value;
   }
-  vec3 found = total > 1e-4 ? sum / total : nearest;
-#ifdef LIGHT
-  found *= texelFetch(albedos, pixel, 0).rgb;
-#endif
-  imageStore(picture, pixel, vec4(found, 1.0));
+  imageStore(picture, pixel, vec4(total > 1e-4 ? sum / total : nearest, 1.0));
 }

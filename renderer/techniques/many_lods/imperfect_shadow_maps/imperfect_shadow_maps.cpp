@@ -2,13 +2,14 @@
 // Instant radiosity with imperfect shadow maps: the rival whose points do not adapt to the view. Source:
 // Ritschel and others 2008; Holländer 2013, sections 3.5.1 and 3.6.2. Lights, their sum, points and discs are
 // those of many_lods/instant_radiosity, so that the choice of points alone differs.
-#include <cmath>
 #include <optional>
 
-#include "experiments/base/error.h"
 #include "renderer/many_lods/fixed_points.h"
 #include "renderer/techniques/many_lods/radiosity.h"
+#include "renderer/techniques/many_lods/receiver_surface.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
+#include "renderer/techniques/many_lods/shadow_bias.h"
+#include "renderer/techniques/many_lods/virtual_lights.h"
 
 namespace limen::techniques {
 namespace {
@@ -22,9 +23,8 @@ struct ImperfectSettings {
   int tilePx = 64;
   int fillLevels = 3;
   double fillTolerance = 0.1;
-  double bias = 3.0;
-  double slopeBias = 1.0;
-  double nearest = 8.0;
+  ShadowBias bias;
+  ReceiverSurface receivers;
   static const SettingsTable<ImperfectSettings>& table() {
     using S = ImperfectSettings;
     static const SettingsTable<S> kTable = {
@@ -49,21 +49,8 @@ struct ImperfectSettings {
          "",
          "Share of the depth by which depths of one surface differ when holes are closed",
          "Ritschel and others 2008 (no value)"},
-        {&S::bias,
-         "bias",
-         {0.0, 64.0},
-         "",
-         "How much nearer to a light than a point its occluders are, radii of leaves"},
-        {&S::slopeBias,
-         "slope_bias",
-         {0.0, 16.0},
-         "px",
-         "And by as many pixels, times 1 + the surface's slope"},
-        {&S::nearest,
-         "nearest",
-         {0.0, 64.0},
-         "",
-         "Points nearer to a light than this do not occlude, radii of leaves"}};
+        {&S::bias, "bias", kShadowBiasText},
+        {&S::receivers, "receivers", kReceiverText}};
     return kTable;
   }
 };
@@ -79,8 +66,8 @@ class ImperfectShadowMaps : public Technique {
     points_.emplace(frame.context(), lights_->count(), static_cast<uint32_t>(settings_.points),
                     tree_->tree().depth(), settings_.tilePx, static_cast<uint32_t>(settings_.tree.seed));
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
-                   many_lods::AtlasForm::Depth);
-    radiosity_.emplace(frame, Radiosity::Sight::Atlas);
+                   many_lods::AtlasForm::Depth, settings_.tree.discs);
+    radiosity_.emplace(frame, Radiosity::Sight::Atlas, settings_.receivers);
     frame.passes().setBytesHeld(kSplatPass, atlas_->bytes() + points_->bytes());
   }
 
@@ -90,19 +77,17 @@ class ImperfectShadowMaps : public Technique {
     lights_->make(frame, step_++, settings_.tilePx, 1.0, radius);
     {
       const auto scope = frame.passes().open(kSplatPass);
-      atlas_->draw(
-          points_->drawList(), tree_->tree().nodes(), lights_->views(),
-          {.nearest = static_cast<float>(settings_.nearest * radius), .radiusScale = points_->radiusScale()});
+      atlas_->draw(points_->drawList(), tree_->tree().nodes(), lights_->views(),
+                   tree_->discs(settings_.bias.nearest, points_->radiusScale()));
     }
     {
       const auto scope = frame.passes().open(kFillPass);
       points_->fill(*atlas_, settings_.fillLevels, static_cast<float>(settings_.fillTolerance));
     }
     // Discs are larger than leaves, and so is what they are off by.
-    const double pixel = std::sqrt(8.0) / settings_.tilePx;
-    radiosity_->shade(
-        frame, *lights_, &*atlas_,
-        {settings_.bias * radius * double(points_->radiusScale()), settings_.slopeBias * pixel});
+    radiosity_->shade(frame, lights_->set(), &*atlas_,
+                      settings_.bias.of(radius * double(points_->radiusScale()),
+                                        hemispherePixelSlope(settings_.tilePx), settings_.tree.discs, 1.0));
   }
 
   const gl::Texture& product() const override { return radiosity_->texture(); }
@@ -124,7 +109,7 @@ class ImperfectShadowMaps : public Technique {
 
 const RegisteredTechnique<ImperfectShadowMaps> kImperfectRegistered{
     {.name = "many_lods/imperfect_shadow_maps",
-     .version = 1,
+     .version = 2,
      .summary =
          "One bounce of light by virtual point lights, their shadow maps drawn from fixed random points",
      .source = "Ritschel and others 2008; Holländer 2013, section 3.5.1 (HOL-26)",

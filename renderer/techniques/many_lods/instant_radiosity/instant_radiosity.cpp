@@ -3,7 +3,6 @@
 // of points (ManyLoDs). Source: Holländer 2013, sections 3.5 and 3.6.1. Projection (stereographic
 // hemispheres), bias, nearest distance and bound of the light are parameters that the thesis leaves open.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <type_traits>
 #include <variant>
@@ -11,7 +10,10 @@
 #include "renderer/many_lods/in_place_cuts.h"
 #include "renderer/many_lods/sequential_cuts.h"
 #include "renderer/techniques/many_lods/radiosity.h"
+#include "renderer/techniques/many_lods/receiver_surface.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
+#include "renderer/techniques/many_lods/shadow_bias.h"
+#include "renderer/techniques/many_lods/virtual_lights.h"
 
 namespace limen::techniques {
 namespace {
@@ -50,9 +52,8 @@ struct InstantRadiositySettings {
   ViewCuts cuts;
   CutLimits limits{2.0, 16384};
   int tilePx = 64;
-  double bias = 3.0;
-  double slopeBias = 1.0;
-  double nearest = 8.0;
+  ShadowBias bias;
+  ReceiverSurface receivers;
   static const SettingsTable<InstantRadiositySettings>& table() {
     using S = InstantRadiositySettings;
     static const SettingsTable<S> kTable = {
@@ -66,22 +67,8 @@ struct InstantRadiositySettings {
          "px",
          "Side of a light's shadow map",
          "Holländer 2013, table 3.3 (32)"},
-        {&S::bias,
-         "bias",
-         {0.0, 64.0},
-         "",
-         "How much nearer to a light than a point its occluders are, radii of leaves"},
-        {&S::slopeBias,
-         "slope_bias",
-         {0.0, 16.0},
-         "px",
-         "And by as many pixels, or nodes of the size allowed if that is more, times 1 + the surface's "
-         "slope"},
-        {&S::nearest,
-         "nearest",
-         {0.0, 64.0},
-         "",
-         "Nodes nearer to a light than this do not occlude, radii of leaves"}};
+        {&S::bias, "bias", kShadowBiasText},
+        {&S::receivers, "receivers", kReceiverText}};
     return kTable;
   }
 };
@@ -96,17 +83,18 @@ class InstantRadiosity : public Technique {
     lights_.emplace(frame, settings_.lights);
     const int depth = tree_->tree().depth();
     if (const auto* inPlace = std::get_if<many_lods::InPlaceSettings>(&settings_.cuts)) {
-      inPlace_.emplace(frame.context(), lights_->count(), depth, *inPlace);
+      inPlace_.emplace(frame.context(), lights_->count(), depth, *inPlace, settings_.tree.discs);
     } else if (std::holds_alternative<many_lods::SequentialSettings>(settings_.cuts)) {
-      sequential_.emplace(frame.context(), lights_->count(), depth);
+      sequential_.emplace(frame.context(), lights_->count(), depth, settings_.tree.discs);
     } else {
       cut_.emplace(frame.context(), lights_->count(), depth, settings_.limits.capacity(lights_->count()),
                    listed(settings_.cuts));
       frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
     }
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),
-                   many_lods::AtlasForm::Depth);
-    radiosity_.emplace(frame, cut_ ? Radiosity::Sight::Atlas : Radiosity::Sight::InPlaceAtlas);
+                   many_lods::AtlasForm::Depth, settings_.tree.discs);
+    radiosity_.emplace(frame, cut_ ? Radiosity::Sight::Atlas : Radiosity::Sight::InPlaceAtlas,
+                       settings_.receivers);
     frame.passes().setBytesHeld(cut_ ? kSplatPass : kInPlacePass, atlas_->bytes());
   }
 
@@ -114,8 +102,7 @@ class InstantRadiosity : public Technique {
     if (step_ == 0)
       for (int before = settings_.lights.framesBefore; before > 0; --before) findCuts(frame, -before, false);
     findCuts(frame, step_++, false);
-    const auto radius = static_cast<float>(tree_->tree().leafRadius());
-    const many_lods::ViewAtlas::Settings discs{.nearest = static_cast<float>(settings_.nearest) * radius};
+    const many_lods::ViewAtlas::Settings discs = tree_->discs(settings_.bias.nearest);
     if (inPlace_) {
       const auto scope = frame.passes().open(kInPlacePass);
       inPlace_->draw(tree_->tree().nodes(), lights_->views(), *atlas_, discs);
@@ -126,10 +113,9 @@ class InstantRadiosity : public Technique {
       const auto scope = frame.passes().open(kSplatPass);
       atlas_->draw(*cut_, tree_->tree().nodes(), lights_->views(), discs);
     }
-    // Pixels as they are on average over the directions (many_lods::hemisphereView()).
-    const double pixel = std::sqrt(8.0) / settings_.tilePx * std::max(settings_.limits.epsilonPx, 1.0);
-    radiosity_->shade(frame, *lights_, &*atlas_,
-                      {settings_.bias * double(radius), settings_.slopeBias * pixel},
+    radiosity_->shade(frame, lights_->set(), &*atlas_,
+                      settings_.bias.of(tree_->tree().leafRadius(), hemispherePixelSlope(settings_.tilePx),
+                                        settings_.tree.discs, settings_.limits.epsilonPx),
                       inPlace_      ? &inPlace_->countsBuffer()
                       : sequential_ ? &sequential_->countsBuffer()
                                     : nullptr);

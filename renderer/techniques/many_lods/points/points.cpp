@@ -26,7 +26,8 @@ constexpr EnumNames<PointPixels, 3> enumNames(PointPixels) {
 }
 
 struct PointsSettings {
-  TreeSettings tree;
+  // As the thesis draws them: of discs in one plane, two words could not tell the nearest.
+  TreeSettings tree{.discs = many_lods::Discs::Spheres};
   bool balanced = true;
   many_lods::CutMode cuts;
   CutLimits limits{1.0, 1048576};
@@ -73,7 +74,7 @@ class AdaptivePoints : public Technique {
     tree_.emplace(frame, settings_.tree, settings_.balanced);
     light_.emplace(frame, tree_->tree(), settings_.shading);
     cut_.emplace(frame.context(), 1U, tree_->tree().shape(), settings_.limits.capacity(1), settings_.cuts);
-    atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels));
+    atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels), settings_.tree.discs);
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =
         &frame.context().programs().compute("renderer/techniques/many_lods/points/resolve.comp.glsl",
@@ -90,7 +91,7 @@ class AdaptivePoints : public Technique {
     findCut(frame, false);
     {
       const auto scope = frame.passes().open(kSplatPass);
-      atlas_->draw(*cut_, tree_->tree().nodes(), *views_, {}, &light_->values());
+      atlas_->draw(*cut_, tree_->tree().nodes(), *views_, tree_->discs(0.0), &light_->values());
     }
     const auto scope = frame.passes().open(kResolvePass);
     atlas_->depths().bindStorage(kPointsDepthsBuffer);

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "renderer/techniques/many_lods/radiosity.h"
+#include "renderer/techniques/many_lods/receiver_surface.h"
+#include "renderer/techniques/many_lods/virtual_lights.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::techniques {
@@ -12,8 +14,11 @@ namespace {
 
 struct TracedRadiositySettings {
   VirtualLightSettings lights;
+  ReceiverSurface receivers;
   static const SettingsTable<TracedRadiositySettings>& table() {
-    static const SettingsTable<TracedRadiositySettings> kTable = {included(&TracedRadiositySettings::lights)};
+    using S = TracedRadiositySettings;
+    static const SettingsTable<S> kTable = {included(&S::lights),
+                                            {&S::receivers, "receivers", kReceiverText}};
     return kTable;
   }
 };
@@ -25,11 +30,11 @@ class TracedRadiosity : public Technique {
 
   void prepare(frame::Frame& frame) override {
     lights_.emplace(frame, settings_.lights);
-    radiosity_.emplace(frame, Radiosity::Sight::Rays);
+    radiosity_.emplace(frame, Radiosity::Sight::Rays, settings_.receivers);
   }
   void render(frame::Frame& frame) override {
     lights_->make(frame, step_++, 64, 1.0, 0.0);
-    radiosity_->shade(frame, *lights_, nullptr, {});
+    radiosity_->shade(frame, lights_->set(), nullptr, {});
   }
   const gl::Texture& product() const override { return radiosity_->texture(); }
 
@@ -42,7 +47,7 @@ class TracedRadiosity : public Technique {
 
 const RegisteredTechnique<TracedRadiosity> kTracedRadiosityRegistered{
     {.name = "many_lods/traced_radiosity",
-     .version = 1,
+     .version = 2,
      .summary = "One bounce of light by virtual point lights, each seen along a ray",
      .source = "Keller 1997; Holländer 2013, section 3.6.1 (HOL-25)",
      .product = ProductKind::Colour,
