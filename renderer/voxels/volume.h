@@ -31,6 +31,8 @@ class Volume {
          const VolumeAttributes& attributes = {});
 
   const VoxelGrid& grid() const { return grid_; }
+  /// The same voxels elsewhere; what they hold is stale.
+  void moveTo(glm::dvec3 origin) { grid_.origin = origin; }
   const VolumeAttributes& attributes() const { return attributes_; }
   /// R32UI, a bit a voxel: bit x % 32 of texel (x / 32, y) of layer z. Bits beyond the grid are 0.
   const gl::Texture& bits() const { return bits_; }

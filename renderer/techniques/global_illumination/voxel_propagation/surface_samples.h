@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace limen::techniques {
+
+/// A point of a triangle that stands for a part of its area.
+struct SurfaceSample {
+  uint32_t triangle = 0;
+  float u = 0.0F, v = 0.0F;  ///< barycentric coordinates of the second and third corner
+  double area = 0.0;         ///< world units squared
+};
+
+/// Points on all triangles of finite area: each is cut into equal triangles whose sides are at most `spacing`
+/// long; each part is one sample at its middle, so that the areas of a triangle's samples sum to its own. At
+/// most `mostSamples` in all: a wider spacing is taken where more were needed.
+std::vector<SurfaceSample> sampleSurfaces(const scene::Scene& scene, double spacing, size_t mostSamples);
+
+}  // namespace limen::techniques
