@@ -38,6 +38,12 @@ const uint kArriveFacesImage = 1u;
 const uint kReconstructIdsUnit = 0u;
 const uint kReconstructArrivedUnit = 1u;
 const uint kReconstructOutImage = 0u;
+// Pyramid of voxels' radiance: sums of a voxel, of each face its area and three channels; six faces' textures and images.
+const uint kFaceSums = 24u;
+const uint kFaceSumsBuffer = 8u;
+const uint kRadianceUnit = 2u;
+const uint kRadianceFacesImage = 1u;
+const int kMostConeSteps = 64;
 // Table of shares (voxel_propagation/lobe_shares.h): texels a side, and focuses.
 const int kShareSide = 16;
 const int kShareLevels = 16;

@@ -3,13 +3,13 @@
 
 #include <epoxy/gl.h>
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/light_box.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/lobe_shares.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/surface_samples.h"
@@ -17,11 +17,6 @@
 namespace limen::techniques {
 namespace {
 
-constexpr int kSampleRow = 2048;            // samples a row of their texture
-constexpr size_t kMostSamples = 4U << 20U;  // 64 MiB
-/// Voxels beyond the scene's box: walls along it lie just within their voxels' inner faces, so that the empty
-/// voxels of a room have the room's size.
-constexpr double kBeyond = 0.95;
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
@@ -43,14 +38,7 @@ voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& set
     grid.resolution = glm::ivec3(settings.resolution);
     return grid;
   }
-  scene::Bounds bounds = frame.scene().bounds();
-  const glm::dvec3 extent = bounds.high - bounds.low;
-  const double longest = std::max({extent.x, extent.y, extent.z});
-  if (!(longest > 0.0) || !std::isfinite(longest)) return voxels::tightGrid(bounds, settings.resolution);
-  const double size = longest / (settings.resolution - 2.0 * kBeyond);
-  bounds.low -= kBeyond * size;
-  bounds.high += kBeyond * size;
-  return voxels::tightGrid(bounds, settings.resolution);
+  return lightBox(frame.scene(), settings.resolution);
 }
 
 /// Harmonics of a cone as transport.glsl takes them.
@@ -78,19 +66,10 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
   const double h = grid.voxelSize;
-  const std::vector<SurfaceSample> samples =
-      sampleSurfaces(frame.scene(), h / settings.injection.samplesAside, kMostSamples);
-  sampleCount_ = static_cast<uint32_t>(samples.size());
-  const int rows = std::max(1, static_cast<int>((samples.size() + kSampleRow - 1) / kSampleRow));
-  samples_.emplace(gl::Format::RGBA32UI, glm::ivec2(kSampleRow, rows));
-  std::vector<uint32_t> texels(size_t{4} * kSampleRow * size_t(rows), 0U);
-  for (size_t i = 0; i < samples.size(); ++i) {
-    texels[4 * i] = samples[i].triangle;
-    texels[4 * i + 1] = std::bit_cast<uint32_t>(samples[i].u);
-    texels[4 * i + 2] = std::bit_cast<uint32_t>(samples[i].v);
-    texels[4 * i + 3] = std::bit_cast<uint32_t>(static_cast<float>(samples[i].area / (h * h)));
-  }
-  samples_->writeUint(texels);
+  const SampleTexture samples = sampleTexture(frame.scene(), h / settings.injection.samplesAside, h * h);
+  sampleCount_ = samples.count;
+  samples_.emplace(gl::Format::RGBA32UI, samples.sizePx);
+  samples_->writeUint(samples.texels);
   const int sets = std::holds_alternative<UpdateAxes>(settings.update) ? 3 : 1;
   sums_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, 12 * size.z * sets);
   for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace limen::techniques {
@@ -46,6 +47,23 @@ std::vector<SurfaceSample> sampleSurfaces(const scene::Scene& scene, double spac
           out.push_back({static_cast<uint32_t>(t), static_cast<float>((double(i) + third) * part),
                          static_cast<float>((double(j) + third) * part), area * part * part});
         }
+  }
+  return out;
+}
+
+SampleTexture sampleTexture(const scene::Scene& scene, double spacing, double unitArea) {
+  constexpr int kRow = 2048;
+  constexpr size_t kMostSamples = 4U << 20U;  // 64 MiB
+  const std::vector<SurfaceSample> samples = sampleSurfaces(scene, spacing, kMostSamples);
+  SampleTexture out;
+  out.count = static_cast<uint32_t>(samples.size());
+  out.sizePx = {kRow, std::max(1, static_cast<int>((samples.size() + kRow - 1) / kRow))};
+  out.texels.assign(size_t{4} * kRow * size_t(out.sizePx.y), 0U);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    out.texels[4 * i] = samples[i].triangle;
+    out.texels[4 * i + 1] = std::bit_cast<uint32_t>(samples[i].u);
+    out.texels[4 * i + 2] = std::bit_cast<uint32_t>(samples[i].v);
+    out.texels[4 * i + 3] = std::bit_cast<uint32_t>(static_cast<float>(samples[i].area / unitArea));
   }
   return out;
 }
