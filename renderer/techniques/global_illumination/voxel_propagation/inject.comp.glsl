@@ -13,8 +13,8 @@ uniform uint sampleCount;
 uniform float shift;  // in voxels
 uniform int onlyAxis;  // of surfaces that face it; negative: all
 #include "renderer/techniques/global_illumination/surface_light.glsl"
+#include "renderer/techniques/global_illumination/voxel_propagation/light_bounds.glsl"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_lobes.glsl"
-#include "renderer/voxels/volume.glsl"
 
 ivec3 along(int axis, int steps) { return steps * ivec3(axis == 0, axis == 1, axis == 2); }
 
@@ -22,8 +22,6 @@ int longestAxisOf(vec3 v) {
   const vec3 size = abs(v);
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
-
-bool isOpen(ivec3 voxel) { return isInGrid(voxel) && !isOccupied(voxel); }
 
 // Whether no surface is between the sample and a voxel's middle.
 bool isSeen(SurfacePoint point, ivec3 voxel) {

@@ -56,6 +56,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
                      const frame::SurfaceLightSettings& lighting)
     : settings_(settings),
       lighting_(lighting),
+      bounds_(frame.scene().bounds()),
       counts_(sizeof(InjectCounts), nullptr),
       changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
   gl::Context& context = frame.context();
@@ -176,6 +177,12 @@ bool LightGrid::place(const frame::Frame& frame) {
   return true;
 }
 
+void LightGrid::configureBounds(const gl::Program& program) const {
+  volume_->configure(program);
+  program.set("boundsLow", glm::vec3(volume_->grid().toVoxels(bounds_.low)));
+  program.set("boundsHigh", glm::vec3(volume_->grid().toVoxels(bounds_.high)));
+}
+
 void LightGrid::voxelize(frame::Frame& frame) {
   const auto scope = frame.passes().open(kVoxelizePass);
   voxelizer_->run(frame, *volume_);
@@ -184,7 +191,7 @@ void LightGrid::voxelize(frame::Frame& frame) {
 void LightGrid::inject(frame::Frame& frame, int axis) {
   counts_.clearUint(0);
   configureSurfaceLight(*inject_, frame, lighting_);
-  volume_->configure(*inject_);
+  configureBounds(*inject_);
   inject_->set("sampleCount", sampleCount_);
   inject_->set("shift", static_cast<float>(settings_.injection.shift));
   samples_->bindTexture(kInjectSamplesUnit);
@@ -213,8 +220,8 @@ void LightGrid::restartSteps() {
     changes_.clearUint(0);
     propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
   }
-  volume_->configure(*arrive_);
-  volume_->configure(*propagate_);
+  configureBounds(*arrive_);
+  configureBounds(*propagate_);
   if (shares_) shares_->bindTexture(kShareTableUnit);
   source_->bindTexture(kPropagateSourceUnit);
 }

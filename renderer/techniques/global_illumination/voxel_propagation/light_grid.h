@@ -51,6 +51,7 @@ class LightGrid {
   void compile(frame::Frame& frame);
   /// Where the voxels are in this frame; true if they have moved.
   bool place(const frame::Frame& frame);
+  void configureBounds(const gl::Program& program) const;
   void voxelize(frame::Frame& frame);
   /// Of surfaces that face `axis`, if they are put in apart; negative: all.
   void inject(frame::Frame& frame, int axis);
@@ -59,6 +60,7 @@ class LightGrid {
 
   LightGridSettings settings_;
   frame::SurfaceLightSettings lighting_;
+  scene::Bounds bounds_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   const gl::Program *inject_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr, *arrive_ = nullptr;

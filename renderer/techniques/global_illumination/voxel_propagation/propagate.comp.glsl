@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A step: what each voxel's neighbours send it. Light goes on in empty voxels; what goes from an empty voxel to an occupied one is
 // partly let through, and partly comes back at once, so that opaque voxels hold no light and cannot pass it on.
+#include "renderer/techniques/global_illumination/voxel_propagation/light_bounds.glsl"
 #include "renderer/techniques/global_illumination/voxel_propagation/transport.glsl"
-#include "renderer/voxels/volume.glsl"
 
 layout(local_size_x = kPropagateGroup, local_size_y = kPropagateGroup, local_size_z = kPropagateGroup) in;
 layout(binding = kPropagateFieldUnit) uniform sampler2DArray field;
@@ -42,6 +42,10 @@ void main() {
   const int channel = at.z / gridSizeZ;
   const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), toLayer = ivec3(0, 0, channel * gridSizeZ);
   const bool solid = isOccupied(voxel);
+  if (!solid && !isOpen(voxel)) {
+    imageStore(next, at, vec4(0.0));
+    return;
+  }
   const vec4 own = texelFetch(field, at, 0);
   const float passing = solid ? 1.0 - texelFetch(volumeNormal, voxel, 0).w : 1.0;
   vec4 sum = lasting ? texelFetch(source, at, 0) : vec4(0.0);

@@ -14,6 +14,8 @@
 //   of voxels and a shadow map, into the empty voxel in front.
 // - Occupied voxels hold no light but what passes transparent surfaces. What reaches one comes back in the
 //   voxel that sent it.
+// - Voxels that a pixel's light is interpolated between must be seen from it where walls meet: floors beside a
+//   thin wall would else have the light of its other side.
 // - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
 #include <epoxy/gl.h>
 
@@ -31,9 +33,15 @@ namespace {
 
 constexpr const char* kVoxelReconstructPass = "global_illumination/reconstruct";
 
-enum class GatherWeights { Occupied, All };
-constexpr EnumNames<GatherWeights, 2> enumNames(GatherWeights) {
-  return {{{{GatherWeights::Occupied, "occupied"}, {GatherWeights::All, "all"}}}};
+enum class GatherWeights {
+  Visible,   ///< occupied voxels whose lit faces a ray finds, where another wall is near
+  Occupied,  ///< occupied voxels; light behind a thin wall leaks past it
+  All
+};
+constexpr EnumNames<GatherWeights, 3> enumNames(GatherWeights) {
+  return {{{{GatherWeights::Visible, "visible"},
+            {GatherWeights::Occupied, "occupied"},
+            {GatherWeights::All, "all"}}}};
 }
 enum class GatherForm {
   Faces,     ///< light at each face, by the squares of the normal's components
@@ -49,7 +57,7 @@ constexpr EnumNames<GatherForm, 3> enumNames(GatherForm) {
 struct VoxelPropagationSettings {
   LightGridSettings grid;
   GatherForm gather = GatherForm::Faces;
-  GatherWeights interpolation = GatherWeights::Occupied;
+  GatherWeights interpolation = GatherWeights::Visible;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<VoxelPropagationSettings>& table() {
     using S = VoxelPropagationSettings;
@@ -73,6 +81,7 @@ class VoxelPropagation : public Technique {
     gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
     defines.merge(light_->volume().defines());
     defineEnum(defines, "GATHER", settings_.gather);
+    defineEnum(defines, "INTERPOLATION", settings_.interpolation);
     reconstruct_ = &frame.context().programs().compute(
         "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl", defines);
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
@@ -87,7 +96,6 @@ class VoxelPropagation : public Technique {
     light_->volume().configure(*reconstruct_);
     reconstruct_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
     reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
-    reconstruct_->set("occupiedOnly", settings_.interpolation == GatherWeights::Occupied ? 1 : 0);
     ids.bindTexture(kReconstructIdsUnit);
     light_->arrived().bindTexture(kReconstructArrivedUnit);
     picture_->bindImage(kReconstructOutImage, gl::Access::Write);
