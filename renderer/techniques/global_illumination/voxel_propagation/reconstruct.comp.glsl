@@ -17,7 +17,8 @@ uniform bool withDirect, withIndirect;
 // product of the surface's clamped cosine with the lobe that has arrived, a clamped cosine as well, scaled so that what
 // arrives along the normal is the flux over the face: (1 + 2 cos) / 3.
 #if GATHER == GATHER_FACES
-float faceWeight(float cosine) { return cosine > 0.0 ? cosine * cosine : 0.0; }
+// Below 1e-3 a component of the normal may be rounding, or adds a millionth.
+float faceWeight(float cosine) { return cosine > 1e-3 ? cosine * cosine : 0.0; }
 #else
 float faceWeight(float cosine) { return (1.0 + 2.0 * cosine) / 3.0; }
 #endif
