@@ -250,7 +250,7 @@ TEST_F(VoxelPropagationLight, IsNearerToPathsThanItsRivals) {
                        .product,
                    reference);
     };
-    // What an average room leaves, of all light: less than a hand's breadth of the way from nothing.
+    // At least two fifths of the error of no indirect light are gone.
     EXPECT_LT(found, 0.6 * error(nothing, reference)) << each.scene;
     EXPECT_LT(found, volumes(false)) << each.scene;
     EXPECT_LT(found, volumes(true)) << each.scene;
