@@ -25,6 +25,8 @@ class Volume {
          const VolumeAttributes& attributes = {});
 
   const VoxelGrid& grid() const { return grid_; }
+  /// The same voxels elsewhere; what they hold is stale.
+  void moveTo(glm::dvec3 origin) { grid_.origin = origin; }
   /// With the format that the volume has got.
   const VolumeAttributes& attributes() const { return attributes_; }
   /// R32UI, a bit a voxel: bit x % 32 of texel (x / 32, y) of layer z. Bits beyond the grid are 0.

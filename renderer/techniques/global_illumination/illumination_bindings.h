@@ -14,6 +14,40 @@ const uint kPathSumsImage = 0u;
 const uint kPathSumsUnit = 0u;
 const uint kPathPictureImage = 0u;
 
+// Light in voxels. Fields are arrays of 3 channels of as many layers as the grid has. Units 12 to 14 are the volume's, storage
+// buffers 0 to 7 the scene's and its tree's.
+struct InjectCounts {  // std430
+  uint homeless;       // samples of surfaces that have no empty voxel near
+};
+#ifdef __cplusplus
+static_assert(sizeof(InjectCounts) == 4);
+#endif
+const float kInjectFixed = 65536.0f;  // units of a sum of lobes: signed 32 bits hold fluxes up to 32768
+const uint kInjectSamplesUnit = 0u;
+const uint kInjectSumsImage = 0u;
+const uint kInjectCountsBuffer = 8u;
+const int kPropagateGroup = 4;
+const uint kPropagateFieldUnit = 0u;
+const uint kPropagateSourceUnit = 1u;
+const uint kShareTableUnit = 2u;
+const uint kPropagateOutImage = 1u;
+const uint kPropagateChangesBuffer = 8u;
+const uint kPropagateSumImage = 2u;
+const int kReflectiveRayGroup = 64;
+const uint kArriveFacesImage = 1u;
+const uint kReconstructIdsUnit = 0u;
+const uint kReconstructArrivedUnit = 1u;
+const uint kReconstructOutImage = 0u;
+// Pyramid of voxels' radiance: sums of a voxel, of each face its area and three channels; six faces' textures and images.
+const uint kFaceSums = 24u;
+const uint kFaceSumsBuffer = 8u;
+const uint kRadianceUnit = 2u;
+const uint kRadianceFacesImage = 1u;
+const int kMostConeSteps = 64;
+// Table of shares (voxel_propagation/lobe_shares.h): texels a side, and focuses.
+const int kShareSide = 16;
+const int kShareLevels = 16;
+
 #ifdef __cplusplus
 }  // namespace limen::techniques
 #endif

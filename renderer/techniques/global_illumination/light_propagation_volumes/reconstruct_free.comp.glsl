@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Indirect light of each pixel's point from the light that has passed the voxels around it, and its direct light.
+#include "renderer/techniques/global_illumination/illumination_bindings.h"
+
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
+layout(binding = kReconstructIdsUnit) uniform usampler2D triangleIds;
+layout(binding = kReconstructArrivedUnit) uniform sampler2DArray light;
+layout(binding = kReconstructOutImage, rgba32f) uniform writeonly image2D picture;
+
+uniform ivec2 sizePx;
+uniform float shift;
+uniform bool withDirect, withIndirect;
+#include "renderer/techniques/global_illumination/surface_light.glsl"
+#include "renderer/voxels/volume.glsl"
+
+// Irradiance over pi. The factor makes the light of a clamped cosine along the normal, which has 7 / 12 in harmonics of two bands,
+// its flux over a voxel's face.
+vec3 passingLight(SurfacePoint point) {
+  const vec3 at = clamp(toVoxels(point.position) + shift * point.flatNormal - 0.5, vec3(0.0), vec3(gridSize() - 1));
+  const ivec3 low = ivec3(floor(at));
+  const vec3 part = at - vec3(low);
+  vec3 sum = vec3(0.0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const ivec3 upper = ivec3(corner & 1, corner >> 1 & 1, corner >> 2), voxel = low + upper;
+    if (!isInGrid(voxel)) continue;
+    const vec3 axes = mix(1.0 - part, part, vec3(upper));
+    const float weight = axes.x * axes.y * axes.z;
+    for (int channel = 0; channel < 3; ++channel) {
+      const vec4 one = texelFetch(light, voxel + ivec3(0, 0, channel * gridSizeZ), 0);
+      sum[channel] += weight * (0.25 * one.x - 0.5 * dot(one.yzw, point.flatNormal));
+    }
+  }
+  return max(sum, 0.0) * (12.0 / 7.0) / 3.14159265;
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  const uint id = texelFetch(triangleIds, pixel, 0).x;
+  vec3 colour = vec3(0.0);
+  if (id != kRayNoTriangle) {
+    SeenPoint seen;
+    const SurfacePoint point = surfaceSeen(pixel, id, seen);
+    const vec3 albedo = reflectance(point);
+    if (withDirect) colour += emitted(point) + albedo * lampRadiance(point);
+    if (withIndirect) colour += albedo * passingLight(point);
+    if (rayCutShort) colour = vec3(uintBitsToFloat(0x7fc00000u));
+  }
+  imageStore(picture, pixel, vec4(colour, 1.0));
+}

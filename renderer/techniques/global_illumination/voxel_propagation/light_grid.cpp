@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
+
+#include <epoxy/gl.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/light_box.h"
+#include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/lobe_shares.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/surface_samples.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kVoxelizePass = "global_illumination/voxelize";
+constexpr const char* kInjectPass = "global_illumination/inject";
+constexpr const char* kPropagatePass = "global_illumination/propagate";
+constexpr const char* kArrivePass = "global_illumination/arrive";
+
+const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
+
+void overVoxels(glm::ivec3 size) {
+  const glm::ivec3 groups = (size + kPropagateGroup - 1) / kPropagateGroup;
+  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
+                    static_cast<GLuint>(groups.z));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& settings) {
+  if (const auto* box = std::get_if<BoxAroundCamera>(&settings.box)) {
+    voxels::VoxelGrid grid;
+    grid.voxelSize = box->side / settings.resolution;
+    grid.resolution = glm::ivec3(settings.resolution);
+    return grid;
+  }
+  return lightBox(frame.scene(), settings.resolution);
+}
+
+/// Harmonics of a cone as transport.glsl takes them.
+void setCone(const gl::Program& program, double halfAngleDeg, double scale) {
+  const double cosine = std::cos(glm::radians(halfAngleDeg));
+  program.set("coneShare", static_cast<float>(0.5 * (1.0 - cosine)));
+  program.set("coneSlope", static_cast<float>(0.75 * (1.0 - cosine * cosine)));
+  program.set("coneDirection", static_cast<float>(0.5 * (1.0 + cosine)));
+  program.set("coneScale", static_cast<float>(scale));
+}
+
+}  // namespace
+
+LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
+                     const frame::SurfaceLightSettings& lighting)
+    : settings_(settings),
+      lighting_(lighting),
+      bounds_(frame.scene().bounds()),
+      counts_(sizeof(InjectCounts), nullptr),
+      changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
+  gl::Context& context = frame.context();
+  volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
+                  voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
+  voxelizer_.emplace(context, settings.coverage, *volume_);
+  compile(frame);
+  const voxels::VoxelGrid& grid = volume_->grid();
+  const glm::ivec3 size = grid.resolution;
+  const double h = grid.voxelSize;
+  const SampleTexture samples = sampleTexture(frame.scene(), h / settings.injection.samplesAside, h * h);
+  sampleCount_ = samples.count;
+  samples_.emplace(gl::Format::RGBA32UI, samples.sizePx);
+  samples_->writeUint(samples.texels);
+  const int sets = std::holds_alternative<UpdateAxes>(settings.update) ? 3 : 1;
+  sums_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, 12 * size.z * sets);
+  for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));
+  const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
+  for (std::optional<gl::Texture>* texture : {&source_, &field_, &next_})
+    texture->emplace(format, glm::ivec2(size), 1, 3 * size.z);
+  const bool summed = settings.sources == LightSources::Once;
+  arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
+  arrived_->clear(glm::vec4(0.0F));
+  if (std::holds_alternative<MomentTransport>(settings.transport)) {
+    static const Image kTable = shareTable();
+    shares_.emplace(gl::Format::RGBA32F, glm::ivec2(kTable.width, kTable.height), 1, 0, gl::Sampling::Linear);
+    shares_->write(kTable);
+  }
+  frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes());
+  frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
+  frame.passes().setBytesHeld(kPropagatePass, field_->bytes() + next_->bytes());
+  frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
+}
+
+void LightGrid::compile(frame::Frame& frame) {
+  gl::ProgramCache& programs = frame.context().programs();
+  gl::ShaderDefines defines = surfaceLightDefines(lighting_, frame);
+  defines.merge(volume_->defines());
+  inject_ = &programs.compute(kLightGridFolder + "inject.comp.glsl", defines);
+  defines = volume_->defines();
+  defines["FIELD_FORMAT"] = settings_.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
+  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", defines);
+  for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
+    defines["TRANSPORT_" + std::string(name)] =
+        std::to_string(std::string(name) == "MOMENTS" ? 0
+                       : std::string(name) == "FACES" ? 1
+                       : std::string(name) == "CONES" ? 2
+                                                      : 3);
+  defines["TRANSPORT"] = std::to_string(settings_.transport.index());
+  const bool summed = settings_.sources == LightSources::Once;
+  gl::ShaderDefines arriving = defines;
+  arriving["ARRIVED_FORMAT"] = summed ? "rgba32f" : defines["FIELD_FORMAT"];
+  arriving["ARRIVED_ACCESS"] = summed ? "" : "writeonly";
+  if (summed) arriving["SUMMED"] = "1";
+  arrive_ = &programs.compute(kLightGridFolder + "arrive.comp.glsl", arriving);
+  defineEnum(defines, "REFLECTION", settings_.reflection);
+  defineEnum(defines, "ALBEDO", settings_.albedo);
+  if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
+  propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
+  for (const gl::Program* program : {propagate_, arrive_}) {
+    if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
+      const double solidAngle =
+          2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
+      setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
+    } else if (const auto* components = std::get_if<ComponentTransport>(&settings_.transport)) {
+      // So that six neighbours of equal light keep it.
+      setCone(*program, components->halfAngleDeg,
+              1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
+    }
+  }
+}
+
+int64_t LightGrid::bytes() const {
+  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + field_->bytes() +
+         next_->bytes() + arrived_->bytes();
+}
+
+void LightGrid::update(frame::Frame& frame) {
+  const int64_t number = frames_++;
+  const bool anew = std::holds_alternative<UpdateAll>(settings_.update) ||
+                    std::holds_alternative<UpdateEvery>(settings_.update);
+  if (const auto* every = std::get_if<UpdateEvery>(&settings_.update); every && number % every->frames != 0)
+    return;
+  const bool moved = place(frame);
+  const bool restarts = anew || moved || number == 0;
+  voxelize(frame);
+  {
+    const auto scope = frame.passes().open(kInjectPass);
+    inject(frame, restarts ? -1 : static_cast<int>(number % 3));
+  }
+  const auto scope = frame.passes().open(kPropagatePass);
+  if (restarts) begun_ = false;
+  restartSteps();
+  const bool lasting = settings_.sources == LightSources::Steady;
+  for (int step = 0; step < settings_.iterations; ++step) {
+    if (!lasting) arrive(step == 0);
+    propagate(lasting);
+  }
+  if (lasting || settings_.iterations == 0) arrive(true);
+}
+
+void LightGrid::start(frame::Frame& frame) {
+  place(frame);
+  voxelize(frame);
+  inject(frame, -1);
+  begun_ = false;
+  restartSteps();
+}
+
+bool LightGrid::place(const frame::Frame& frame) {
+  const auto* box = std::get_if<BoxAroundCamera>(&settings_.box);
+  if (!box) return false;
+  const voxels::VoxelGrid& grid = volume_->grid();
+  const glm::dvec3 corner =
+      grid.voxelSize * glm::round(frame.camera().eye / grid.voxelSize - 0.5 * settings_.resolution);
+  if (corner == grid.origin) return false;
+  volume_->moveTo(corner);
+  return true;
+}
+
+void LightGrid::configureBounds(const gl::Program& program) const {
+  volume_->configure(program);
+  program.set("boundsLow", glm::vec3(volume_->grid().toVoxels(bounds_.low)));
+  program.set("boundsHigh", glm::vec3(volume_->grid().toVoxels(bounds_.high)));
+}
+
+void LightGrid::voxelize(frame::Frame& frame) {
+  const auto scope = frame.passes().open(kVoxelizePass);
+  voxelizer_->run(frame, *volume_);
+}
+
+void LightGrid::inject(frame::Frame& frame, int axis) {
+  counts_.clearUint(0);
+  configureSurfaceLight(*inject_, frame, lighting_);
+  configureBounds(*inject_);
+  inject_->set("sampleCount", sampleCount_);
+  inject_->set("shift", static_cast<float>(settings_.injection.shift));
+  samples_->bindTexture(kInjectSamplesUnit);
+  counts_.bindStorage(kInjectCountsBuffer);
+  const bool byAxis = sumsOfAxis_.size() > 1;
+  for (int set = 0; set < static_cast<int>(sumsOfAxis_.size()); ++set) {
+    if (byAxis && axis >= 0 && set != axis) continue;
+    sumsOfAxis_[size_t(set)].clearUint(glm::uvec4(0));
+    sumsOfAxis_[size_t(set)].bindImage(kInjectSumsImage, gl::Access::ReadWrite);
+    inject_->set("onlyAxis", byAxis ? set : -1);
+    inject_->dispatch(samples_->sizePx());
+  }
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  volume_->configure(*seed_);
+  seed_->set("sumSets", static_cast<int>(sumsOfAxis_.size()));
+  sums_->bindImage(kInjectSumsImage, gl::Access::Read);
+  source_->bindImage(kPropagateOutImage, gl::Access::Write);
+  seed_->use();
+  const glm::ivec3 size = volume_->grid().resolution;
+  overVoxels({size.x, size.y, 3 * size.z});
+}
+
+void LightGrid::restartSteps() {
+  step_ = 0;
+  if (settings_.stopBelow > 0.0) {
+    changes_.clearUint(0);
+    propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
+  }
+  configureBounds(*arrive_);
+  configureBounds(*propagate_);
+  if (shares_) shares_->bindTexture(kShareTableUnit);
+  source_->bindTexture(kPropagateSourceUnit);
+}
+
+void LightGrid::propagate(bool lasting) {
+  current().bindTexture(kPropagateFieldUnit);
+  next_->bindImage(kPropagateOutImage, gl::Access::Write);
+  propagate_->set("lasting", lasting ? 1 : 0);
+  if (settings_.stopBelow > 0.0) {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    changes_.bindStorage(kPropagateChangesBuffer);
+    propagate_->set("step_", step_);
+  }
+  propagate_->use();
+  const glm::ivec3 size = volume_->grid().resolution;
+  overVoxels({size.x, size.y, 3 * size.z});
+  std::swap(field_, next_);
+  begun_ = true;
+  ++step_;
+}
+
+void LightGrid::arrive(bool first) {
+  current().bindTexture(kPropagateFieldUnit);
+  arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
+  arrive_->set("first", first ? 1 : 0);
+  arrive_->use();
+  overVoxels(volume_->grid().resolution);
+}
+
+glm::dvec3 LightGrid::flux() const {
+  const int depth = volume_->grid().resolution.z;
+  const double h = volume_->grid().voxelSize;
+  glm::dvec3 out(0.0);
+  for (int channel = 0; channel < 3; ++channel)
+    for (int z = 0; z < depth; ++z) {
+      const Image layer = current().readLayer(channel * depth + z);
+      for (size_t i = 0; i < layer.pixels(); ++i) out[channel] += layer.data[4 * i];
+    }
+  return h * h * out;
+}
+
+uint32_t LightGrid::homeless() const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  return counts_.read<InjectCounts>()[0].homeless;
+}
+
+}  // namespace limen::techniques

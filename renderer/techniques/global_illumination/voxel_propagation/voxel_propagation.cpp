@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Indirect light from a grid of voxels with occlusion and several bounces (Gaitatzes 2012, chapter 5; GI-03
+// to GI-13). Light is the flux and vector of a voxel, which are harmonics of two bands. What departs from the
+// thesis, each a choice of a parameter where it can be:
+//
+// - A voxel's light leaves it as the lobe of its flux and mean direction does (`transport: moments`): every
+//   direction of the lobe goes on through the faces that it meets, as it is. The rule printed, and light
+//   propagation volumes, turn what passes a face into a lobe about one of six axes at each step, so that light
+//   is scattered in empty space; it stays near its source, and the picture is farther from the truth than
+//   one without indirect light.
+// - Sources last (`sources: steady`), so that what arrives need not be summed over steps, and the light of
+//   one frame is where that of the next begins.
+// - Light is put in by samples of the surfaces with their areas and a ray to the lamp, in place of fragments
+//   of voxels and a shadow map, into the empty voxel in front.
+// - Occupied voxels hold no light but what passes transparent surfaces. What reaches one comes back in the
+//   voxel that sent it.
+// - Voxels that a pixel's light is interpolated between must be seen from it where walls meet: floors beside a
+//   thin wall would else have the light of its other side.
+// - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
+#include "renderer/techniques/technique.h"
+
+namespace limen::techniques {
+namespace {
+
+constexpr const char* kVoxelReconstructPass = "global_illumination/reconstruct";
+
+enum class GatherWeights {
+  Visible,   ///< occupied voxels whose lit faces a ray finds, where another wall is near
+  Occupied,  ///< occupied voxels; light behind a thin wall leaks past it
+  All
+};
+constexpr EnumNames<GatherWeights, 3> enumNames(GatherWeights) {
+  return {{{{GatherWeights::Visible, "visible"},
+            {GatherWeights::Occupied, "occupied"},
+            {GatherWeights::All, "all"}}}};
+}
+enum class GatherForm {
+  Faces,     ///< light at each face, by the squares of the normal's components
+  Incident,  ///< lobes that have arrived (Gaitatzes 2012, equation 14)
+  Reflected  ///< lobes that the voxel reflects, of its own mean reflectance
+};
+constexpr EnumNames<GatherForm, 3> enumNames(GatherForm) {
+  return {{{{GatherForm::Faces, "faces"},
+            {GatherForm::Incident, "incident"},
+            {GatherForm::Reflected, "reflected"}}}};
+}
+
+struct VoxelPropagationSettings {
+  LightGridSettings grid;
+  GatherForm gather = GatherForm::Faces;
+  GatherWeights interpolation = GatherWeights::Visible;
+  frame::SurfaceLightSettings surfaces;
+  static const SettingsTable<VoxelPropagationSettings>& table() {
+    using S = VoxelPropagationSettings;
+    static const SettingsTable<S> kTable = {
+        included(&S::grid),
+        {&S::gather, "gather", "What a pixel's light is computed from", "Gaitatzes 2012, section 5.5.3"},
+        {&S::interpolation, "interpolation", "Which voxels a pixel's light is interpolated between",
+         "Gaitatzes 2012, section 5.5.3 (occupied)"},
+        included(&S::surfaces)};
+    return kTable;
+  }
+};
+
+class VoxelPropagation : public Technique {
+ public:
+  using Settings = VoxelPropagationSettings;
+  explicit VoxelPropagation(const Settings& settings) : settings_(settings) {}
+
+  void prepare(frame::Frame& frame) override {
+    light_.emplace(frame, settings_.grid, settings_.surfaces);
+    gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
+    defines.merge(light_->volume().defines());
+    defineEnum(defines, "GATHER", settings_.gather);
+    defineEnum(defines, "INTERPOLATION", settings_.interpolation);
+    reconstruct_ = &frame.context().programs().compute(
+        "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl", defines);
+    picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
+    frame.passes().setBytesHeld(kVoxelReconstructPass, picture_->bytes());
+  }
+
+  void render(frame::Frame& frame) override {
+    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    light_->update(frame);
+    const auto scope = frame.passes().open(kVoxelReconstructPass);
+    configureSurfaceLight(*reconstruct_, frame, settings_.surfaces);
+    light_->volume().configure(*reconstruct_);
+    reconstruct_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
+    reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
+    ids.bindTexture(kReconstructIdsUnit);
+    light_->arrived().bindTexture(kReconstructArrivedUnit);
+    picture_->bindImage(kReconstructOutImage, gl::Access::Write);
+    reconstruct_->dispatch(frame.sizePx());
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  const gl::Texture& product() const override { return *picture_; }
+
+  std::vector<Counter> count(frame::Frame& frame) override {
+    const auto meanFlux = [&] {
+      const glm::dvec3 flux = light_->flux();
+      return (flux.r + flux.g + flux.b) / 3.0;
+    };
+    light_->start(frame);
+    const double injected = meanFlux();
+    double before = injected, largest = 0.0, last = 0.0;
+    for (int step = 0; step < settings_.grid.iterations; ++step) {
+      light_->propagate(false);
+      const double after = meanFlux();
+      last = before > 0.0 ? after / before : 0.0;
+      largest = std::max(largest, last);
+      before = after;
+    }
+    const voxels::VoxelGrid& grid = light_->volume().grid();
+    return {{"injected_flux", injected},
+            {"largest_gain", largest},
+            {"last_gain", last},
+            {"remaining_flux", injected > 0.0 ? before / injected : 0.0},
+            {"homeless_samples", double(light_->homeless())},
+            {"voxel_steps", double(grid.count()) * settings_.grid.iterations}};
+  }
+
+ private:
+  Settings settings_;
+  std::optional<LightGrid> light_;
+  const gl::Program* reconstruct_ = nullptr;
+  std::optional<gl::Texture> picture_;
+};
+
+const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
+    {.name = "global_illumination/voxel_propagation",
+     .version = 1,
+     .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
+     .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
+     .product = ProductKind::Colour,
+     .counters = {
+         {"injected_flux", "Flux put into the grid, mean of the channels, radiance times area", "",
+          Direction::Neither},
+         {"largest_gain", "Largest ratio of the flux after a step to that before, of light put in once", "",
+          Direction::Neither},
+         {"last_gain", "Ratio of the flux after the last step to that before, of light put in once", "",
+          Direction::Neither},
+         {"remaining_flux", "Flux still on its way after the last step, share of what was put in once", "",
+          Direction::LowerIsBetter},
+         {"homeless_samples", "Samples of surfaces whose light found no empty voxel", "",
+          Direction::LowerIsBetter},
+         {"voxel_steps", "Voxels times steps", "", Direction::LowerIsBetter}}}};
+
+}  // namespace
+}  // namespace limen::techniques
