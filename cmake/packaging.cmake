@@ -1,6 +1,6 @@
 # What `cmake --install` and `cpack` make of a build: programs that need no source tree. PREFIX/lib/limen has programs and
 # the modules that they load, PREFIX/share/limen the files that they read, laid out like the source tree.
-set(programs limen-sweep limen-view limen-perceive limen-study limen-analyse limen-report)
+set(programs limen-sweep limen-view limen-perceive limen-study limen-analyse limen-report limen-export)
 set(modules limen_image_codec limen_image_analysis_opencv limen_video_codec)
 
 if(NOT LIMEN_EMBED_SHADERS)

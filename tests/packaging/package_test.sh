@@ -42,7 +42,7 @@ code=0
 "$bin/limen" test >/dev/null 2>&1 || code=$?
 check "an installed version has no tests" test "$code" = 2
 
-for name in limen limen-sweep limen-view limen-perceive limen-study limen-analyse limen-report; do
+for name in limen limen-sweep limen-view limen-perceive limen-study limen-analyse limen-report limen-export; do
   check "a manual page of $name" gzip -t "root/usr/share/man/man1/$name.1.gz"
 done
 zcat root/usr/share/man/man1/limen-sweep.1.gz >page.txt

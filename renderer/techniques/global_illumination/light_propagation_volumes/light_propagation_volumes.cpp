@@ -55,7 +55,7 @@ class LightPropagationVolumes : public Technique {
     voxels::VolumeAttributes attributes{false, settings_.blockers, gl::Format::RGBA16F};
     volume_.emplace(context, voxels::tightGrid(frame.scene().bounds(), settings_.resolution),
                     frame.gpuScene().anchor(), attributes);
-    if (settings_.blockers) voxelizer_.emplace(context, voxels::Coverage::Thin, *volume_);
+    if (settings_.blockers) voxelizer_.emplace(frame, voxels::Coverage::Thin, *volume_);
     gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
     defines.merge(volume_->defines());
     inject_ = &programs.compute(folder + "light_propagation_volumes/reflective_rays.comp.glsl", defines);

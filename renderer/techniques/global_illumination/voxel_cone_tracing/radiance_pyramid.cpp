@@ -68,7 +68,7 @@ RadiancePyramid::RadiancePyramid(frame::Frame& frame, const RadiancePyramidSetti
   const int levels = levelsOf(settings.resolution);
   volume_.emplace(context, lightBox(frame.scene(), settings.resolution, 1 << (levels - 1)),
                   frame.gpuScene().anchor(), voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
-  voxelizer_.emplace(context, voxels::Coverage::Thin, *volume_);
+  voxelizer_.emplace(frame, voxels::Coverage::Thin, *volume_);
   gl::ShaderDefines lit = surfaceLightDefines(lighting, frame);
   lit.merge(volume_->defines());
   inject_ = &programs.compute(kConeFolder + "face_light.comp.glsl", lit);

@@ -62,7 +62,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   gl::Context& context = frame.context();
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
-  voxelizer_.emplace(context, settings.coverage, *volume_);
+  voxelizer_.emplace(frame, settings.coverage, *volume_);
   compile(frame);
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
