@@ -56,7 +56,8 @@ void submitPrepared(const Submission& submission, const Jobs& jobs, const std::s
                       {"folder", submission.folder}});
 }
 
-/// Tasks that no job will merge, since their submission was killed halfway or that job cancelled, get one now.
+/// Tasks that no job will merge, since their submission was killed halfway or that job cancelled, get one
+/// now.
 void submitMissingMerges(const std::string& store, const SweepOutput& output) {
   for (const Submission& submission : activeSubmissions(store)) {
     if (submission.array.empty()) continue;

@@ -55,15 +55,15 @@ struct DrawList {
 class ViewAtlas {
  public:
   /// `leavesOwnOut`: nodes of the object that a view belongs to (CutView::frustum.w) are not drawn; not
-  /// TwoWords. Wide becomes TwoPasses where the driver lacks 64-bit atomic operations. Throws Error if the device
-  /// cannot hold it.
+  /// TwoWords. Wide becomes TwoPasses where the driver lacks 64-bit atomic operations. Throws Error if the
+  /// device cannot hold it.
   ViewAtlas(gl::Context& context, uint32_t views, glm::ivec2 tilePx, AtlasForm form,
             Discs discs = Discs::Spheres, bool leavesOwnOut = false);
 
   struct Settings {
-    float nearest = 0.0F;      ///< nodes whose centres are nearer are left out, world units
-    float radiusScale = 1.0F;  ///< of discs over spheres
-    const gl::Buffer* cones = nullptr;  ///< of the nodes (GpuTree::cones()); Discs::Oriented only
+    float nearest = 0.0F;                ///< nodes whose centres are nearer are left out, world units
+    float radiusScale = 1.0F;            ///< of discs over spheres
+    const gl::Buffer* cones = nullptr;   ///< of the nodes (GpuTree::cones()); Discs::Oriented only
     const gl::Buffer* owners = nullptr;  ///< of the nodes: number of an object or 0; `leavesOwnOut` only
   };
   /// Clears the tiles and draws a list. `colours`: of the nodes, four halves each; TwoWords only.

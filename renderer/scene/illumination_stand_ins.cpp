@@ -41,14 +41,13 @@ constexpr int kBoxTriangles = 12;
 void addWalls(Scene& scene, glm::dvec3 half, int count) {
   using V = glm::dvec3;
   const V up(0.0, half.y, 0.0);
-  const Mesh walls[] = {card(V(0.0), {half.x, 0, 0}, {0, 0, -half.z}),
-                        card(V(0, half.y, -half.z), {half.x, 0, 0}, up),
-                        card(V(-half.x, half.y, 0), {0, 0, -half.z}, up),
-                        card(V(half.x, half.y, 0), {0, 0, half.z}, up),
-                        card(V(0, 2.0 * half.y, 0), {half.x, 0, 0}, {0, 0, half.z})};
+  const Mesh walls[] = {
+      card(V(0.0), {half.x, 0, 0}, {0, 0, -half.z}), card(V(0, half.y, -half.z), {half.x, 0, 0}, up),
+      card(V(-half.x, half.y, 0), {0, 0, -half.z}, up), card(V(half.x, half.y, 0), {0, 0, half.z}, up),
+      card(V(0, 2.0 * half.y, 0), {half.x, 0, 0}, {0, 0, half.z})};
   const char* names[] = {"floor", "back", "left", "right", "ceiling"};
-  const glm::vec3 colours[] = {glm::vec3(0.6F), glm::vec3(0.7F), {0.6F, 0.15F, 0.1F}, {0.15F, 0.4F, 0.15F},
-                               glm::vec3(0.7F)};
+  const glm::vec3 colours[] = {
+      glm::vec3(0.6F), glm::vec3(0.7F), {0.6F, 0.15F, 0.1F}, {0.15F, 0.4F, 0.15F}, glm::vec3(0.7F)};
   for (int i = 0; i < count; ++i) addPart(scene, names[i], walls[i], colours[i], Role::ReceiverOnly);
 }
 
@@ -89,8 +88,7 @@ void addColumns(Scene& scene, int count, glm::dvec3 half) {
     const glm::dvec3 foot(side * half.x, 1.9 * half.y * drum / each,
                           half.z * (-0.9 + 1.8 * (column / 2) / (kColumns / 2)));
     const double wide = 0.03 * half.x * (1.0 + 0.3 * std::sin(0.7 * drum));
-    append(drums, box(foot - glm::dvec3(wide, 0, wide),
-                      foot + glm::dvec3(wide, 1.9 * half.y / each, wide)));
+    append(drums, box(foot - glm::dvec3(wide, 0, wide), foot + glm::dvec3(wide, 1.9 * half.y / each, wide)));
   }
   addPart(scene, "columns", drums, glm::vec3(0.65F, 0.6F, 0.5F));
 }
@@ -124,15 +122,17 @@ Scene buildStandIn(const StandInSettings& settings) {
   for (glm::dvec3& position : scene.mesh.positions) position = turned(position);
   scene.lights = {lightTowards(turned({0.3 * half.x, 1.7 * half.y, 0.2 * half.z}),
                                turned({0.3 * half.x, 0.0, 0.1 * half.z}), glm::dvec2(0.2))};
-  setStillCamera(scene, {turned({0.0, 1.1 * half.y, 2.9 * half.z}), turned({0.0, 0.9 * half.y, 0.0}),
-                         {0.0, 1.0, 0.0}, 45.0});
+  setStillCamera(
+      scene,
+      {turned({0.0, 1.1 * half.y, 2.9 * half.z}), turned({0.0, 0.9 * half.y, 0.0}), {0.0, 1.0, 0.0}, 45.0});
   return scene;
 }
 
 const RegisteredScene<StandInSettings> kStandInRegistered{
     {.name = "global_illumination/stand_in",
      .version = 1,
-     .summary = "Scenes of boxes with the triangle counts of a published table, to be turned against the grid",
+     .summary =
+         "Scenes of boxes with the triangle counts of a published table, to be turned against the grid",
      .source = "stand-ins for Gaitatzes 2012, section 5.6, Table 2"},
     buildStandIn};
 

@@ -26,7 +26,11 @@ struct MovingBoxSettings {
         {&S::thickness, "thickness", {0.0001, 1.0}, "m", "Of the box, along the way"},
         {&S::reach, "reach", {0.0, 1.5}, "m", "That it moves to both sides"},
         {&S::periodS, "period_s", {0.001, 60.0}, "s", "Of its motion to and fro"},
-        {&S::distance, "distance", {2.5, 100.0}, "m", "From the camera to the box; a narrower view shows as much"}};
+        {&S::distance,
+         "distance",
+         {2.5, 100.0},
+         "m",
+         "From the camera to the box; a narrower view shows as much"}};
     return kTable;
   }
 };
@@ -92,19 +96,24 @@ void addFigure(Scene& scene) {
 }
 
 Scene buildMovingDoor(const MovingDoorSettings& settings) {
-  constexpr double kDoorHalfWidth = 1.8, kDoorHeight = 2.5, kDoorBack = -1.8, kDoorFront = 2.2, kDoorOpening = 0.6, kDoorTop = 2.05;
+  constexpr double kDoorHalfWidth = 1.8, kDoorHeight = 2.5, kDoorBack = -1.8, kDoorFront = 2.2,
+                   kDoorOpening = 0.6, kDoorTop = 2.05;
   Scene scene;
   const double middleZ = 0.5 * (kDoorBack + kDoorFront), halfZ = 0.5 * (kDoorFront - kDoorBack);
   addPart(scene, "floor", card({0.0, 0.0, middleZ}, {0.0, 0.0, halfZ}, {kDoorHalfWidth, 0.0, 0.0}), kStill);
-  addPart(scene, "hidden wall", card({0.0, 0.5 * kDoorHeight, kDoorBack}, {kDoorHalfWidth, 0.0, 0.0}, {0.0, 0.5 * kDoorHeight, 0.0}),
-          {0.7F, 0.3F, 0.2F});
+  addPart(
+      scene, "hidden wall",
+      card({0.0, 0.5 * kDoorHeight, kDoorBack}, {kDoorHalfWidth, 0.0, 0.0}, {0.0, 0.5 * kDoorHeight, 0.0}),
+      {0.7F, 0.3F, 0.2F});
   const double half = 0.5 * (kDoorHalfWidth - kDoorOpening);
   for (const double side : {-1.0, 1.0})
     addPart(scene, "partition",
-            card({side * (kDoorOpening + half), 0.5 * kDoorHeight, 0.0}, {half, 0.0, 0.0}, {0.0, 0.5 * kDoorHeight, 0.0}),
+            card({side * (kDoorOpening + half), 0.5 * kDoorHeight, 0.0}, {half, 0.0, 0.0},
+                 {0.0, 0.5 * kDoorHeight, 0.0}),
             kStill);
   addPart(scene, "lintel",
-          card({0.0, 0.5 * (kDoorTop + kDoorHeight), 0.0}, {kDoorOpening, 0.0, 0.0}, {0.0, 0.5 * (kDoorHeight - kDoorTop), 0.0}),
+          card({0.0, 0.5 * (kDoorTop + kDoorHeight), 0.0}, {kDoorOpening, 0.0, 0.0},
+               {0.0, 0.5 * (kDoorHeight - kDoorTop), 0.0}),
           kStill);
   addPart(scene, "door", box({-0.57, 0.03, -0.02}, {0.57, 2.02, 0.02}), kMoves);
   PartMotion door = motionOfLast(scene);
@@ -120,7 +129,8 @@ Scene buildMovingDoor(const MovingDoorSettings& settings) {
 const RegisteredScene<MovingDoorSettings> kMovingDoorRegistered{
     {.name = "moving/door",
      .version = 1,
-     .summary = "Door that turns about its middle before a wall that it hides, and a figure of parts that moves",
+     .summary =
+         "Door that turns about its middle before a wall that it hides, and a figure of parts that moves",
      .source = "after Gaitatzes 2012, Fig. 74"},
     buildMovingDoor};
 

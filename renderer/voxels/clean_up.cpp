@@ -86,8 +86,7 @@ void dispatchBricks(const gl::Program& program, const VoxelGrid& grid, int brick
 CleanUp::CleanUp(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume,
                  int views, int used)
     : settings_(settings),
-      everywhere_(
-          context.programs().compute(kCleanUpShader, disproofDefines(settings, volume, views, used))),
+      everywhere_(context.programs().compute(kCleanUpShader, disproofDefines(settings, volume, views, used))),
       listed_(context.programs().compute(
           kCleanUpShader, with(disproofDefines(settings, volume, views, used), "LISTED_BRICKS"))) {}
 

@@ -18,7 +18,8 @@ struct TightBias {
                               *kSummary = "the voxel's extent along the view, from its middle";
 };
 struct RadiusBias {
-  static constexpr const char *kKind = "radius", *kSummary = "half the voxel's diagonal: 0.866 sides (the text)";
+  static constexpr const char *kKind = "radius",
+                              *kSummary = "half the voxel's diagonal: 0.866 sides (the text)";
 };
 struct ListingBias {
   static constexpr const char *kKind = "listing", *kSummary = "3 sides (listing 7.1, for cubic voxels)";

@@ -27,7 +27,8 @@ struct ViewNames {
 };
 constexpr ViewNames kViewNames[kMostDepthViews] = {
     {"viewFromVoxels[0]", "voxelsFromView[0]", "viewLow[0]", "viewExtent[0]", "viewSizePx[0]", "viewNear[0]"},
-    {"viewFromVoxels[1]", "voxelsFromView[1]", "viewLow[1]", "viewExtent[1]", "viewSizePx[1]", "viewNear[1]"}};
+    {"viewFromVoxels[1]", "voxelsFromView[1]", "viewLow[1]", "viewExtent[1]", "viewSizePx[1]",
+     "viewNear[1]"}};
 
 }  // namespace
 
@@ -59,8 +60,8 @@ frame::LightFrustum fitted(const scene::AreaLight& light, const scene::Bounds& b
   for (const glm::dvec3& corner : corners) {
     // What lies beside the light may be in any direction.
     const bool before = corner.z > frustum.near;
-    const glm::dvec2 tangent = before ? glm::dvec2(corner) / corner.z
-                                      : glm::sign(glm::dvec2(corner)) * kMostTangent;
+    const glm::dvec2 tangent =
+        before ? glm::dvec2(corner) / corner.z : glm::sign(glm::dvec2(corner)) * kMostTangent;
     low = glm::min(low, tangent), high = glm::max(high, tangent);
   }
   frustum.low = glm::clamp(low, -kMostTangent, kMostTangent - 1e-3);
@@ -85,8 +86,8 @@ void LightMap::draw(frame::Frame& frame, const scene::Bounds& box) {
 
 void configureViews(const gl::Program& program, const std::vector<DepthView>& views, const VoxelGrid& grid,
                     glm::dvec3 anchor) {
-  const glm::dmat4 fromVoxels = glm::scale(glm::translate(glm::dmat4(1.0), grid.origin - anchor),
-                                           glm::dvec3(grid.voxelSize));
+  const glm::dmat4 fromVoxels =
+      glm::scale(glm::translate(glm::dmat4(1.0), grid.origin - anchor), glm::dvec3(grid.voxelSize));
   for (size_t i = 0; i < views.size(); ++i) {
     const DepthView& view = views[i];
     const ViewNames& names = kViewNames[i];

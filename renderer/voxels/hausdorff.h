@@ -30,8 +30,8 @@ struct HausdorffDistances {
   }
 };
 
-/// `occupied`: a byte a voxel in the order of VoxelGrid::indexOf(). `samples`: points on the mesh, and middles at
-/// most: of more, every so many. Triangles that are not finite are left out.
+/// `occupied`: a byte a voxel in the order of VoxelGrid::indexOf(). `samples`: points on the mesh, and
+/// middles at most: of more, every so many. Triangles that are not finite are left out.
 HausdorffDistances hausdorff(const scene::Mesh& mesh, const VoxelGrid& grid,
                              const std::vector<uint8_t>& occupied, int samples = 20000, int64_t seed = 1);
 

@@ -45,7 +45,8 @@ const SettingsTable<PointSettings>& PointSettings::table() {
        "",
        "Interleaved subsets of the grid, one a frame; 1: all points in each frame",
        "Gaitatzes 2012, section 7.8"},
-      {&S::shift, "shift", "Points move within their cells from frame to frame, so that none is missed for good"}};
+      {&S::shift, "shift",
+       "Points move within their cells from frame to frame, so that none is missed for good"}};
   return kTable;
 }
 
@@ -61,11 +62,13 @@ void configurePoints(const gl::Program& program, const PointSettings& settings, 
   program.set("subset", step % settings.subsets);
   // Evenly spread from any step on (Roberts 2018, R2); a round of subsets has one shift.
   const double round = settings.shift ? step / settings.subsets : 0.0;
-  const glm::dvec2 shift = glm::fract(glm::dvec2(0.5) + round * glm::dvec2(0.7548776662466927, 0.5698402909980532));
+  const glm::dvec2 shift =
+      glm::fract(glm::dvec2(0.5) + round * glm::dvec2(0.7548776662466927, 0.5698402909980532));
   program.set("pointShift", glm::vec2(shift));
 }
 
-void configureSampleLights(const gl::Program& program, const frame::Frame& frame, const SampleLighting& lighting) {
+void configureSampleLights(const gl::Program& program, const frame::Frame& frame,
+                           const SampleLighting& lighting) {
   if (!frame.scene().lights.empty())
     program.set("lightPosition", glm::vec3(frame.scene().lights[0].centre - frame.gpuScene().anchor()));
   program.set("lightStrength", static_cast<float>(lighting.strength));

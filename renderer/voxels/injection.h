@@ -18,7 +18,8 @@ enum class PointPattern {
   Stipple  ///< every other row shifted by half a cell
 };
 constexpr EnumNames<PointPattern, 3> enumNames(PointPattern) {
-  return {{{{PointPattern::Rows, "rows"}, {PointPattern::Blocks, "blocks"}, {PointPattern::Stipple, "stipple"}}}};
+  return {
+      {{{PointPattern::Rows, "rows"}, {PointPattern::Blocks, "blocks"}, {PointPattern::Stipple, "stipple"}}}};
 }
 
 struct PointSettings {
@@ -60,6 +61,7 @@ class Injection {
 gl::ShaderDefines pointDefines(const PointSettings& settings);
 void configurePoints(const gl::Program& program, const PointSettings& settings, int step);
 /// Uniforms of shaders that include seen_surface.glsl.
-void configureSampleLights(const gl::Program& program, const frame::Frame& frame, const SampleLighting& lighting);
+void configureSampleLights(const gl::Program& program, const frame::Frame& frame,
+                           const SampleLighting& lighting);
 
 }  // namespace limen::voxels

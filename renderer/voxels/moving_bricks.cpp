@@ -37,7 +37,8 @@ void MovingBricks::add(double timeS) {
     scene::Bounds now;
     const glm::dmat4 at = part.motion.at(timeS);
     for (int i = 0; i < 8; ++i) {
-      const glm::dvec3 corner(i & 1 ? part.rest.high.x : part.rest.low.x, i & 2 ? part.rest.high.y : part.rest.low.y,
+      const glm::dvec3 corner(i & 1 ? part.rest.high.x : part.rest.low.x,
+                              i & 2 ? part.rest.high.y : part.rest.low.y,
                               i & 4 ? part.rest.high.z : part.rest.low.z);
       now.extend(glm::dvec3(at * glm::dvec4(corner, 1.0)));
     }
@@ -57,7 +58,8 @@ void MovingBricks::add(double timeS) {
         }
   }
   if (listed_.size() > before)
-    buffer_.write(4 * static_cast<int64_t>(before), 4 * static_cast<int64_t>(listed_.size() - before), &listed_[before]);
+    buffer_.write(4 * static_cast<int64_t>(before), 4 * static_cast<int64_t>(listed_.size() - before),
+                  &listed_[before]);
 }
 
 void MovingBricks::restart(const VoxelGrid& grid) {

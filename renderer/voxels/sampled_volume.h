@@ -36,7 +36,9 @@ class SampledVolume {
   /// The next step begins: its counts are apart from the last one's.
   void turn() { turn_ = 1 - turn_; }
   /// Of the last step. Waits for the GPU.
-  SampleCounts counts() const { return state_.read<SampleCounts>(turn_ * int64_t{sizeof(SampleCounts)}, 1)[0]; }
+  SampleCounts counts() const {
+    return state_.read<SampleCounts>(turn_ * int64_t{sizeof(SampleCounts)}, 1)[0];
+  }
 
   /// Uniforms and textures of volume.glsl.
   void configure(const gl::Program& program) const;

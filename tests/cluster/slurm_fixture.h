@@ -31,8 +31,8 @@ class SlurmTest : public SweepCli {
     chmod(cluster_.c_str(), 0755);  // munged insists that all may reach its socket
     setenv("SLURM_CONF", (cluster_ + "/slurm.conf").c_str(), 1);
     const ProgramOutput up = slurm({"up", cluster_, "3", "2"});
-    // Not without a word: then nothing here is tested. Where its programs are (limen test installs them) it must
-    // start.
+    // Not without a word: then nothing here is tested. Where its programs are (limen test installs them) it
+    // must start.
     if (up.status == 3) GTEST_SKIP() << "*** Sweeps on a cluster are NOT tested: " << up.err;
     ASSERT_EQ(up.status, 0) << up.err;
   }
@@ -123,8 +123,7 @@ class SlurmTest : public SweepCli {
     std::map<std::string, std::string> out;
     for (const store::Run& run : store::Store(file, store::Access::ReadOnly).allRuns())
       if (run.status == "done") {
-        const bool fresh =
-            out.emplace(run.key, run.sceneFacts.at("product_hash").get<std::string>()).second;
+        const bool fresh = out.emplace(run.key, run.sceneFacts.at("product_hash").get<std::string>()).second;
         EXPECT_TRUE(fresh) << run.key << " is there twice";
       }
     return out;

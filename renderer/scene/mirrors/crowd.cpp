@@ -26,7 +26,11 @@ struct MirrorCrowdSettings {
          "Segments in a quarter circle; 25: 5,000 triangles an object, two million of 400",
          "Holländer 2013, section 3.6.3 (2 M triangles)"},
         {&S::glassOf, "glass_every", {0, 1000}, "", "Every so many objects, one is of glass; 0: none"},
-        {&S::reflectance, "reflectance", {0.0, 1.0}, "", "Share of the light that they reflect, or let through"},
+        {&S::reflectance,
+         "reflectance",
+         {0.0, 1.0},
+         "",
+         "Share of the light that they reflect, or let through"},
         {&S::seed, "seed", {0, 1000000}, "", "Seed of their places and sizes"}};
     return kTable;
   }
@@ -53,7 +57,8 @@ Scene buildMirrorCrowd(const MirrorCrowdSettings& settings) {
     addPart(scene, ellipsoid({x, y, z}, axes, settings.tessellation),
             settings.glassOf > 0 && i % settings.glassOf == settings.glassOf - 1 ? glass : mirror);
   }
-  scene.lights = {lightTowards({-0.5 * half, 1.2 * height, 2.0 * half}, {0.0, half, 0.0}, glm::dvec2(0.1 * half))};
+  scene.lights = {
+      lightTowards({-0.5 * half, 1.2 * height, 2.0 * half}, {0.0, half, 0.0}, glm::dvec2(0.1 * half))};
   setStillCamera(scene, {{0.0, 1.1 * half, 4.2 * half}, {0.0, half, 0.0}, {0.0, 1.0, 0.0}, 40.0});
   return scene;
 }

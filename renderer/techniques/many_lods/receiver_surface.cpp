@@ -6,9 +6,18 @@ namespace limen::techniques {
 const SettingsTable<ReceiverSurface>& ReceiverSurface::table() {
   using S = ReceiverSurface;
   static const SettingsTable<S> kTable = {
-      {&S::gloss, "share", {0.0, 1.0}, "", "Share of the light that a lobe around the mirrored direction reflects",
+      {&S::gloss,
+       "share",
+       {0.0, 1.0},
+       "",
+       "Share of the light that a lobe around the mirrored direction reflects",
        "Holländer 2013, section 3.6.2 (glossy scenes; no model is given)"},
-      {&S::exponent, "exponent", {1.0, 1000.0}, "", "Exponent of the lobe's cosine", "Lafortune and Willems 1994"}};
+      {&S::exponent,
+       "exponent",
+       {1.0, 1000.0},
+       "",
+       "Exponent of the lobe's cosine",
+       "Lafortune and Willems 1994"}};
   return kTable;
 }
 

@@ -17,7 +17,8 @@ const SettingsTable<ShadowBias>& ShadowBias::table() {
        "pixels",
        {0.0, 16.0},
        "px",
-       "And by as many pixels, or with spheres as many nodes of the size allowed if that is more, times 1 + the "
+       "And by as many pixels, or with spheres as many nodes of the size allowed if that is more, times 1 + "
+       "the "
        "surface's slope"},
       {&S::nearest,
        "nearest",

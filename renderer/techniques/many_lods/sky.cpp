@@ -40,7 +40,11 @@ const SettingsTable<SkySettings>& SkySettings::table() {
       {&S::sun, "sun", kRadiances, "W/(m^2 sr)", "Radiance that the middle of the sun adds"},
       {&S::sunWidthDeg, "sun_width", {0.5, 60.0}, "deg", "Angle at which it has fallen to exp(-1/2)"},
       {&S::sunElevationDeg, "sun_elevation", {-90.0, 90.0}, "deg", "Height of the sun above the horizon"},
-      {&S::sunAzimuthDeg, "sun_azimuth", {-180.0, 180.0}, "deg", "Its direction around the vertical axis, from x to z"}};
+      {&S::sunAzimuthDeg,
+       "sun_azimuth",
+       {-180.0, 180.0},
+       "deg",
+       "Its direction around the vertical axis, from x to z"}};
   return kTable;
 }
 
@@ -69,9 +73,9 @@ std::vector<SkyLight> skyLights(const SkySettings& sky, int count) {
   for (size_t row = 0; row < kSkyRows; ++row) {
     double sum = 0.0;
     for (size_t column = 0; column < kSkyColumns; ++column)
-      sums[row][column] = sum += sky.radiance(
-          skyDirection(2.0 * (double(row) + 0.5) / kSkyRows - 1.0,
-                       2.0 * std::numbers::pi * (double(column) + 0.5) / kSkyColumns));
+      sums[row][column] = sum +=
+          sky.radiance(skyDirection(2.0 * (double(row) + 0.5) / kSkyRows - 1.0,
+                                    2.0 * std::numbers::pi * (double(column) + 0.5) / kSkyColumns));
     rowSums[row] = total += sum;
   }
   std::vector<SkyLight> out;
@@ -82,8 +86,7 @@ std::vector<SkyLight> skyLights(const SkySettings& sky, int count) {
     const SkyPlace row = placeOf(rowSums, u - std::floor(u));
     const std::vector<double>& cells = sums[size_t(row.cell)];
     const SkyPlace column = placeOf(cells, v - std::floor(v));
-    const double here =
-        cells[size_t(column.cell)] - (column.cell > 0 ? cells[size_t(column.cell) - 1] : 0.0);
+    const double here = cells[size_t(column.cell)] - (column.cell > 0 ? cells[size_t(column.cell) - 1] : 0.0);
     const glm::dvec3 direction =
         skyDirection(2.0 * (row.cell + row.within) / kSkyRows - 1.0,
                      2.0 * std::numbers::pi * (column.cell + column.within) / kSkyColumns);

@@ -149,7 +149,8 @@ TEST_F(TreeForms, CutsEqualTheRecursion) {
     constexpr uint32_t kViews = 150;
     const int arity = 1 << form.arityBits;
     MultiCut basic(context(), kViews, onGpu.shape(), 1U << 19, BasicCuts{arity});
-    MultiCut incremental(context(), kViews, onGpu.shape(), 1U << 19, IncrementalCuts{arity, 5, CutOrder::Free});
+    MultiCut incremental(context(), kViews, onGpu.shape(), 1U << 19,
+                         IncrementalCuts{arity, 5, CutOrder::Free});
     for (uint32_t frame = 0; frame < 4; ++frame) {
       // Half of the views are elsewhere in every frame.
       std::vector<CutView> views = viewsOf(form.tree, kViews, 31),

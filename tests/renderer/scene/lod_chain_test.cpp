@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "renderer/scene/import.h"
 #include "renderer/scene/closest_point.h"
+#include "renderer/scene/import.h"
 #include "renderer/scene/lod/mesh_chain.h"
 #include "renderer/scene/lod_control.h"
 #include "renderer/scene/shapes.h"

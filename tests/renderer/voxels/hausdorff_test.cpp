@@ -33,7 +33,8 @@ TEST(Hausdorff, DistancesOfLayersToAPlaneAreTheirHeights) {
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
-      const double x = (i + 0.5) / kSteps - 0.5, y = (j + 0.5) / kSteps - 0.5, d2 = 0.0625 * (x * x + y * y + 0.25);
+      const double x = (i + 0.5) / kSteps - 0.5, y = (j + 0.5) / kSteps - 0.5,
+                   d2 = 0.0625 * (x * x + y * y + 0.25);
       mean += std::sqrt(d2) / (kSteps * kSteps), squares += d2 / (kSteps * kSteps);
     }
   EXPECT_NEAR(one.fromSurface.mean, mean, 2e-4);
@@ -69,7 +70,8 @@ TEST(Hausdorff, AgreesWithAllPairs) {
           for (int i = 0; i <= kFine; ++i)
             for (int j = 0; i + j <= kFine; ++j) {
               const double a = double(i) / kFine, b = double(j) / kFine;
-              const glm::dvec3 p = a * ball.positions[t.x] + b * ball.positions[t.y] + (1.0 - a - b) * ball.positions[t.z];
+              const glm::dvec3 p =
+                  a * ball.positions[t.x] + b * ball.positions[t.y] + (1.0 - a - b) * ball.positions[t.z];
               nearest = std::min(nearest, glm::length(p - grid.centre(v)));
             }
         }

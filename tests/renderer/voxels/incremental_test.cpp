@@ -36,7 +36,8 @@ class IncrementalTest : public testing::Test {
 
   static scene::Scene wall() {
     scene::Scene scene;
-    const glm::dvec3 n = wallNormal(), u = glm::normalize(glm::cross({0.0, 1.0, 0.0}, n)), v = glm::cross(n, u);
+    const glm::dvec3 n = wallNormal(), u = glm::normalize(glm::cross({0.0, 1.0, 0.0}, n)),
+                     v = glm::cross(n, u);
     scene::addPart(scene, "wall", scene::card(kWallAt, 3.0 * u, 3.0 * v), glm::vec3(0.5F));
     scene.lights = {scene::lightTowards({1.3, 1.1, 1.9}, {0.0, 0.1, -1.0}, glm::dvec2(0.2))};
     scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
@@ -75,7 +76,8 @@ PlainView plainCamera(const scene::Camera& camera, glm::ivec2 sizePx) {
 }
 
 double wallDepth(const PlainView& view, glm::ivec2 pixel) {
-  const glm::dvec2 t = view.low + (view.high - view.low) * (glm::dvec2(pixel) + 0.5) / glm::dvec2(view.sizePx);
+  const glm::dvec2 t =
+      view.low + (view.high - view.low) * (glm::dvec2(pixel) + 0.5) / glm::dvec2(view.sizePx);
   const glm::dvec3 ray = view.along + t.x * view.right + t.y * view.down;
   return glm::dot(wallNormal(), kWallAt - view.eye) / glm::dot(wallNormal(), ray);
 }
@@ -84,8 +86,9 @@ Says says(const PlainView& view, glm::dvec3 middle, double bias) {
   const glm::dvec3 from = middle - view.eye;
   const double z = glm::dot(from, view.along);
   if (z < 0.05) return z > -0.01 ? Says::Undecided : Says::Nothing;
-  const glm::dvec2 place = (glm::dvec2(glm::dot(from, view.right), glm::dot(from, view.down)) / z - view.low) /
-                           (view.high - view.low) * glm::dvec2(view.sizePx);
+  const glm::dvec2 place =
+      (glm::dvec2(glm::dot(from, view.right), glm::dot(from, view.down)) / z - view.low) /
+      (view.high - view.low) * glm::dvec2(view.sizePx);
   constexpr double kPlaces = 1e-3;  // px, which floats may take otherwise
   const glm::dvec2 within = glm::fract(place);
   if (glm::any(glm::lessThan(place, glm::dvec2(-kPlaces))) ||
@@ -104,9 +107,9 @@ struct BiasCase {
   double camera, light;  // world units
 };
 
-// All voxels are filled; those are emptied whose middle lies before the wall that is seen there by more than the
-// bias, and no others: neither beside the image nor behind the eye. With the light's image as well, either
-// empties what it sees through.
+// All voxels are filled; those are emptied whose middle lies before the wall that is seen there by more than
+// the bias, and no others: neither beside the image nor behind the eye. With the light's image as well,
+// either empties what it sees through.
 TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
   const scene::Scene scene = wall();
   const VoxelGrid grid = this->grid();
@@ -114,7 +117,9 @@ TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
   const frame::GpuScene gpuScene(scene);
   const PlainView camera = plainCamera(scene.camera.at(0.0), {96, 80});
   const scene::AreaLight& light = scene.lights[0];
-  const auto extent = [&](glm::dvec3 axis) { return 0.5 * s * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z)); };
+  const auto extent = [&](glm::dvec3 axis) {
+    return 0.5 * s * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+  };
   const BiasCase cases[] = {{TightBias{}, extent(camera.along), extent(light.direction())},
                             {RadiusBias{}, std::sqrt(0.75) * s, std::sqrt(0.75) * s},
                             {ListingBias{}, 3.0 * s, 3.0 * s},
@@ -136,7 +141,7 @@ TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
       cleanUp.run(volume, views, gpuScene.anchor());
       frame.end();
       const frame::LightFrustum frustum = fitted(light, {grid.origin, grid.high()});
-      const PlainView lightView{light.centre, light.axisX, light.axisY, light.direction(),
+      const PlainView lightView{light.centre, light.axisX,  light.axisY, light.direction(),
                                 frustum.low,  frustum.high, {64, 64}};
       const std::vector<uint8_t> left = volume.occupancy().readOccupied();
       int64_t emptied = 0, stayed = 0, byLight = 0;
@@ -167,7 +172,8 @@ TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
 }
 
 std::vector<uint8_t> injected(gl::Context& context, const scene::Scene& scene, const VoxelGrid& grid,
-                              const PointSettings& points, int steps, glm::ivec2 sizePx, SampleCounts* counts = nullptr) {
+                              const PointSettings& points, int steps, glm::ivec2 sizePx,
+                              SampleCounts* counts = nullptr) {
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context, scene, gpuScene, sizePx);
   SampledVolume volume(context, grid, gpuScene.anchor(), true, 1, points.perStep());
@@ -191,23 +197,27 @@ TEST_F(IncrementalTest, FillsTheVoxelsThatSeenPointsLieIn) {
   const VoxelGrid grid = this->grid();
   constexpr int kSide = 64;
   SampleCounts counts;
-  const std::vector<uint8_t> found = injected(context(), scene, grid, {.side = kSide}, 1, glm::ivec2(kSide), &counts);
+  const std::vector<uint8_t> found =
+      injected(context(), scene, grid, {.side = kSide}, 1, glm::ivec2(kSide), &counts);
   const PlainView camera = plainCamera(scene.camera.at(0.0), glm::ivec2(kSide));
   std::vector<uint8_t> expected(found.size()), possible(found.size());
   int64_t samples = 0;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       const glm::dvec2 t = camera.low + (camera.high - camera.low) * (glm::dvec2(x, y) + 0.5) / double(kSide);
-      const glm::dvec3 at = camera.eye + wallDepth(camera, {x, y}) * (camera.along + t.x * camera.right + t.y * camera.down);
+      const glm::dvec3 at =
+          camera.eye + wallDepth(camera, {x, y}) * (camera.along + t.x * camera.right + t.y * camera.down);
       const glm::dvec3 v = grid.toVoxels(at);
       // Rounding, and the nudge behind the surface.
       constexpr double kSlack = 0.004;
       if (grid.contains(glm::ivec3(glm::floor(v)))) ++samples;
       if (glm::floor(v - kSlack) == glm::floor(v + kSlack)) {
-        if (grid.contains(glm::ivec3(glm::floor(v)))) expected[static_cast<size_t>(grid.indexOf(glm::ivec3(glm::floor(v))))] = 1;
+        if (grid.contains(glm::ivec3(glm::floor(v))))
+          expected[static_cast<size_t>(grid.indexOf(glm::ivec3(glm::floor(v))))] = 1;
       }
       for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 off(corner & 1 ? kSlack : -kSlack, corner & 2 ? kSlack : -kSlack, corner & 4 ? kSlack : -kSlack);
+        const glm::dvec3 off(corner & 1 ? kSlack : -kSlack, corner & 2 ? kSlack : -kSlack,
+                             corner & 4 ? kSlack : -kSlack);
         const glm::ivec3 near(glm::floor(v + off));
         if (grid.contains(near)) possible[static_cast<size_t>(grid.indexOf(near))] = 1;
       }
@@ -226,7 +236,8 @@ TEST_F(IncrementalTest, OrderAndSubsetsOfPointsDoNotMatter) {
   for (const int side : {37, 64}) {
     const std::vector<uint8_t> rows = injected(context(), scene, grid, {.side = side}, 1, {90, 70});
     EXPECT_GT(countOf(rows), 100);
-    EXPECT_EQ(injected(context(), scene, grid, {.side = side, .pattern = PointPattern::Blocks}, 1, {90, 70}), rows);
+    EXPECT_EQ(injected(context(), scene, grid, {.side = side, .pattern = PointPattern::Blocks}, 1, {90, 70}),
+              rows);
     for (const int subsets : {2, 3, 8}) {
       const PointSettings points{.side = side, .subsets = subsets};
       EXPECT_EQ(injected(context(), scene, grid, points, subsets, {90, 70}), rows) << side << " " << subsets;
@@ -269,23 +280,26 @@ TEST_F(IncrementalTest, AttributesAreThoseOfTheSeenSurface) {
   int64_t compared = 0;
   const glm::dvec3 n = wallNormal(), albedo(0.2, 0.4, 0.8);
   for (int z = 0; z < grid.resolution.z; ++z) {
-    const Image normals = volume.normal().readLayer(z), albedos = volume.albedo().readLayer(z), lights = volume.light().readLayer(z);
+    const Image normals = volume.normal().readLayer(z), albedos = volume.albedo().readLayer(z),
+                lights = volume.light().readLayer(z);
     for (int y = 0; y < grid.resolution.y; ++y)
       for (int x = 0; x < grid.resolution.x; ++x) {
         if (!found[static_cast<size_t>(grid.indexOf({x, y, z}))]) {
           for (int c = 0; c < 4; ++c) ASSERT_EQ(lights.at(x, y, c), 0.0F);
           continue;
         }
-        // Of the wall's point nearest to the middle; over a voxel the cosine changes by less than its diagonal
-        // over the light's distance, and half floats hold 11 bits.
+        // Of the wall's point nearest to the middle; over a voxel the cosine changes by less than its
+        // diagonal over the light's distance, and half floats hold 11 bits.
         const glm::dvec3 middle = grid.centre({x, y, z}), at = middle - glm::dot(middle - kWallAt, n) * n;
         const glm::dvec3 away = scene.lights[0].centre - at;
-        const double cosine = glm::dot(n, away) / glm::length(away), varies = 1.8 * grid.voxelSize / glm::length(away);
+        const double cosine = glm::dot(n, away) / glm::length(away),
+                     varies = 1.8 * grid.voxelSize / glm::length(away);
         for (int c = 0; c < 3; ++c) {
           ASSERT_NEAR(normals.at(x, y, c), n[c], 1e-3);
           ASSERT_NEAR(albedos.at(x, y, c), albedo[c], 1e-3);
           const double emitted = c == 1 ? 0.5 : 0.0;
-          ASSERT_NEAR(lights.at(x, y, c), emitted + 0.7 * cosine * albedo[c], 0.7 * albedo[c] * varies + 2e-3);
+          ASSERT_NEAR(lights.at(x, y, c), emitted + 0.7 * cosine * albedo[c],
+                      0.7 * albedo[c] * varies + 2e-3);
         }
         ++compared;
       }
@@ -293,8 +307,8 @@ TEST_F(IncrementalTest, AttributesAreThoseOfTheSeenSurface) {
   EXPECT_GT(compared, 200);
 }
 
-// What the single pass fills lies within the bias of the wall, and nothing that is closer than that and seen is
-// left out.
+// What the single pass fills lies within the bias of the wall, and nothing that is closer than that and seen
+// is left out.
 TEST_F(IncrementalTest, SinglePassFillsWhatLiesWithinTheBias) {
   const scene::Scene scene = wall();
   const VoxelGrid grid = this->grid();
@@ -316,7 +330,8 @@ TEST_F(IncrementalTest, SinglePassFillsWhatLiesWithinTheBias) {
         const Says before = says(camera, grid.centre(v), bias), behind = says(camera, grid.centre(v), -bias);
         if (before == Says::Undecided || behind == Says::Undecided) continue;
         const bool expected = before == Says::Close && behind == Says::Empty;
-        EXPECT_EQ(found[static_cast<size_t>(grid.indexOf(v))] != 0, expected) << v.x << " " << v.y << " " << v.z;
+        EXPECT_EQ(found[static_cast<size_t>(grid.indexOf(v))] != 0, expected)
+            << v.x << " " << v.y << " " << v.z;
         if (expected) ++close;
       }
   EXPECT_GT(close, 300);

@@ -114,17 +114,19 @@ TEST_F(IncrementalSequence, AHiddenWallPersists) {
 TEST_F(IncrementalSequence, PointRasterAndComputeFillTheSameVoxels) {
   const scene::Scene scene = makeScene("moving/door");
   for (const char* use : {"shade", "voxels"}) {
-    Given given = sequence(6, 0.2, {{"light_map.use", std::string(use)},
-                                    {"light_map.resolution", int64_t{128}},
-                                    {"clean_up.proof", std::string("centre")},
-                                    {"clean_up.bias", std::string("radius")},
-                                    {"points.shift", false}});
+    Given given = sequence(6, 0.2,
+                           {{"light_map.use", std::string(use)},
+                            {"light_map.resolution", int64_t{128}},
+                            {"clean_up.proof", std::string("centre")},
+                            {"clean_up.bias", std::string("radius")},
+                            {"points.shift", false}});
     const Sequence compute = run(scene, "two_stage", given);
     for (const int64_t targets : {1, 4})
       for (const char* layout : {"layers", "atlas"}) {
         given["layout"] = std::string(layout);
         given["targets"] = targets;
-        EXPECT_EQ(run(scene, "point_raster", given).voxels, compute.voxels) << layout << " " << targets << " " << use;
+        EXPECT_EQ(run(scene, "point_raster", given).voxels, compute.voxels)
+            << layout << " " << targets << " " << use;
       }
     EXPECT_GT(voxels::countOf(compute.voxels), 2000);
   }
@@ -138,7 +140,8 @@ TEST_F(IncrementalSequence, CleaningWherePartsMoveGivesTheSameForLess) {
     const Sequence some = run(scene, "two_stage", sequence(8, 0.11, {{"region", std::string("moving")}}));
     // Elsewhere, what is filled again at once may have been emptied.
     EXPECT_EQ(voxels::compare(all.voxels, some.voxels).extra, 0) << name;
-    EXPECT_LE(voxels::compare(all.voxels, some.voxels).missing, 0.001 * double(voxels::countOf(all.voxels))) << name;
+    EXPECT_LE(voxels::compare(all.voxels, some.voxels).missing, 0.001 * double(voxels::countOf(all.voxels)))
+        << name;
     EXPECT_EQ(some.counters.at("stale_voxels"), all.counters.at("stale_voxels")) << name;
     EXPECT_LT(some.counters.at("tested_bricks"), 0.7 * all.counters.at("tested_bricks")) << name;
   }
@@ -150,7 +153,10 @@ TEST_F(IncrementalSequence, LightDoesNotBuildUp) {
   const scene::Scene scene = makeScene("moving/box", {{"reach", 0.0}});
   const auto lit = [&](int frames) {
     return run(scene, "two_stage",
-               sequence(frames, 0.01, {{"sequence.light_turn", 9.0}, {"points.shift", false}, {"light_map.use", std::string("voxels")}}),
+               sequence(frames, 0.01,
+                        {{"sequence.light_turn", 9.0},
+                         {"points.shift", false},
+                         {"light_map.use", std::string("voxels")}}),
                {96, 80}, true);
   };
   const Sequence once = lit(0), often = lit(12);
@@ -172,7 +178,8 @@ TEST_F(IncrementalSequence, LightDoesNotBuildUp) {
 TEST_F(IncrementalSequence, TheSameFramesGiveTheSameBytes) {
   const scene::Scene scene = makeScene("moving/door");
   const Given given = sequence(4, 0.1, {{"light_map.use", std::string("voxels")}});
-  const Sequence one = run(scene, "two_stage", given, {96, 80}, true), two = run(scene, "two_stage", given, {96, 80}, true);
+  const Sequence one = run(scene, "two_stage", given, {96, 80}, true),
+                 two = run(scene, "two_stage", given, {96, 80}, true);
   EXPECT_EQ(one.voxels, two.voxels);
   for (size_t z = 0; z < one.normals.size(); ++z) {
     EXPECT_EQ(one.normals[z].data, two.normals[z].data);
@@ -189,7 +196,11 @@ TEST_F(IncrementalSequence, AMovedBoxIsFoundAndStartsAnew) {
   last.eye.x += 1.9;
   path.keys = {{-2.0, first}, {0.0, last}};
   scene.camera = path;
-  const Given given = sequence(20, 0.1, {{"box", std::string("around_camera")}, {"box.extent", 1.5}, {"box.step", int64_t{4}}, {"resolution", int64_t{64}}});
+  const Given given = sequence(20, 0.1,
+                               {{"box", std::string("around_camera")},
+                                {"box.extent", 1.5},
+                                {"box.step", int64_t{4}},
+                                {"resolution", int64_t{64}}});
   const Sequence run20 = run(scene, "two_stage", given);
   const double step = 4.0 * 1.5 * scene.bounds().diagonal() / 64.0;
   // In units of the step along x, 1.9 m hold floor or ceiling of their quotient borders.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Light propagation volumes (Kaplanyan and Dachsbacher 2010; BL-04): one bounce of the lamp's light, spread
-// through a grid that knows no surfaces, or only as blockers. Departures: the lamp of this bench shines to all
-// sides, so that rays from it take the place of a reflective shadow map; one volume over the scene, not
+// through a grid that knows no surfaces, or only as blockers. Departures: the lamp of this bench shines to
+// all sides, so that rays from it take the place of a reflective shadow map; one volume over the scene, not
 // cascades; no damping by the gradient of the light.
 #include <epoxy/gl.h>
 
@@ -30,12 +30,24 @@ struct PropagationVolumeSettings {
     using S = PropagationVolumeSettings;
     constexpr const char* kPaper = "Kaplanyan and Dachsbacher 2010";
     static const SettingsTable<S> kTable = {
-        {&S::resolution, "resolution", {4, 128}, "voxels", "Along the longest side of the scene's box",
+        {&S::resolution,
+         "resolution",
+         {4, 128},
+         "voxels",
+         "Along the longest side of the scene's box",
          kPaper},
         {&S::iterations, "iterations", {0, 256}, "", "Steps of a voxel that light travels", kPaper},
-        {&S::rays, "rays", {64, 1048576}, "", "From the lamp, in place of texels of a map",
+        {&S::rays,
+         "rays",
+         {64, 1048576},
+         "",
+         "From the lamp, in place of texels of a map",
          "the bench's own"},
-        {&S::shift, "shift", {0.0, 2.0}, "voxels", "From surfaces, where light starts and is looked up",
+        {&S::shift,
+         "shift",
+         {0.0, 2.0},
+         "voxels",
+         "From surfaces, where light starts and is looked up",
          kPaper},
         {&S::blockers, "blockers", "Surfaces in a voxel block light by their normals", kPaper},
         included(&S::surfaces)};

@@ -36,11 +36,22 @@ const SettingsTable<ConeSettings>& ConeSettings::table() {
   using S = ConeSettings;
   constexpr const char* kPaper = "Crassin et al. 2011";
   static const SettingsTable<S> kTable = {
-      {&S::start, "start", {0.0, 4.0}, "voxels", "From a surface to where its cones start, along its normal",
+      {&S::start,
+       "start",
+       {0.0, 4.0},
+       "voxels",
+       "From a surface to where its cones start, along its normal",
        kPaper},
-      {&S::step, "step", {0.1, 2.0}, "", "From one place of a cone to the next, in the cone's width there",
+      {&S::step,
+       "step",
+       {0.1, 2.0},
+       "",
+       "From one place of a cone to the next, in the cone's width there",
        kPaper},
-      {&S::width, "width", {0.05, 2.0}, "",
+      {&S::width,
+       "width",
+       {0.05, 2.0},
+       "",
        "Of the voxels that a cone reads, over their distance: 1.15 is that of 60 degrees, whose voxels hold "
        "much of the surface that the cone starts from",
        kPaper}};
@@ -52,10 +63,18 @@ const SettingsTable<RadiancePyramidSettings>& RadiancePyramidSettings::table() {
   constexpr const char* kPaper = "Crassin et al. 2011";
   static const SettingsTable<S> kTable = {
       {&S::resolution, "resolution", {8, 128}, "voxels", "Along the longest side of the scene's box", kPaper},
-      {&S::bounces, "bounces", {1, 8}, "", "Reflections between surfaces, after the one of the lamp's light",
+      {&S::bounces,
+       "bounces",
+       {1, 8},
+       "",
+       "Reflections between surfaces, after the one of the lamp's light",
        "the bench's own"},
-      {&S::samplesAside, "samples_aside", {1, 16}, "",
-       "Points of a surface along the side of a voxel, at least", "the bench's own"},
+      {&S::samplesAside,
+       "samples_aside",
+       {1, 16},
+       "",
+       "Points of a surface along the side of a voxel, at least",
+       "the bench's own"},
       {&S::cones, "cones", "Six cones about each point's normal"}};
   return kTable;
 }

@@ -59,8 +59,7 @@ class VoxelConeTracing : public Technique {
   const gl::Texture& product() const override { return *picture_; }
 
   std::vector<Counter> count(frame::Frame&) override {
-    return {{"surface_samples", double(pyramid_->samples())},
-            {"pyramid_bytes", double(pyramid_->bytes())}};
+    return {{"surface_samples", double(pyramid_->samples())}, {"pyramid_bytes", double(pyramid_->bytes())}};
   }
 
  private:
@@ -76,10 +75,9 @@ const RegisteredTechnique<VoxelConeTracing> kVoxelConeTracingRegistered{
      .summary = "Light gathered by six cones a point through a pyramid of voxels",
      .source = "Crassin et al. 2011; a comparator for Gaitatzes 2012, chapter 5",
      .product = ProductKind::Colour,
-     .counters = {{"surface_samples", "Points of surfaces that light is put in from", "",
-                   Direction::LowerIsBetter},
-                  {"pyramid_bytes", "Memory of the voxels and their pyramid", "B",
-                   Direction::LowerIsBetter}}}};
+     .counters = {
+         {"surface_samples", "Points of surfaces that light is put in from", "", Direction::LowerIsBetter},
+         {"pyramid_bytes", "Memory of the voxels and their pyramid", "B", Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques

@@ -100,11 +100,10 @@ void LightGrid::compile(frame::Frame& frame) {
   defines["FIELD_FORMAT"] = settings_.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
   seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", defines);
   for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
-    defines["TRANSPORT_" + std::string(name)] =
-        std::to_string(std::string(name) == "MOMENTS" ? 0
-                       : std::string(name) == "FACES" ? 1
-                       : std::string(name) == "CONES" ? 2
-                                                      : 3);
+    defines["TRANSPORT_" + std::string(name)] = std::to_string(std::string(name) == "MOMENTS" ? 0
+                                                               : std::string(name) == "FACES" ? 1
+                                                               : std::string(name) == "CONES" ? 2
+                                                                                              : 3);
   defines["TRANSPORT"] = std::to_string(settings_.transport.index());
   const bool summed = settings_.sources == LightSources::Once;
   gl::ShaderDefines arriving = defines;
@@ -118,8 +117,7 @@ void LightGrid::compile(frame::Frame& frame) {
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
   for (const gl::Program* program : {propagate_, arrive_}) {
     if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
-      const double solidAngle =
-          2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
+      const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
       setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
     } else if (const auto* components = std::get_if<ComponentTransport>(&settings_.transport)) {
       // So that six neighbours of equal light keep it.

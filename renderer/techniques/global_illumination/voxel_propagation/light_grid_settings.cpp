@@ -11,8 +11,12 @@ constexpr const char* kTransportSource = "Gaitatzes 2012, section 5.5.2, equatio
 const SettingsTable<ConeTransport>& ConeTransport::table() {
   using S = ConeTransport;
   static const SettingsTable<S> kTable = {
-      {&S::halfAngleDeg, "half_angle_deg", {20.0, 80.0}, "deg",
-       "Of the cone; six of 48.19 degrees have the sphere's solid angle", kTransportSource},
+      {&S::halfAngleDeg,
+       "half_angle_deg",
+       {20.0, 80.0},
+       "deg",
+       "Of the cone; six of 48.19 degrees have the sphere's solid angle",
+       kTransportSource},
       {&S::normalised, "normalised", "Divide by the cone's solid angle", "the bench's own"}};
   return kTable;
 }
@@ -25,11 +29,18 @@ const SettingsTable<ComponentTransport>& ComponentTransport::table() {
 const SettingsTable<InjectionSettings>& InjectionSettings::table() {
   using S = InjectionSettings;
   static const SettingsTable<S> kTable = {
-      {&S::shift, "shift", {0.0, 2.0}, "voxels",
+      {&S::shift,
+       "shift",
+       {0.0, 2.0},
+       "voxels",
        "Along its normal from a point of a surface to where its light starts",
        "Kaplanyan and Dachsbacher 2010 (a half)"},
-      {&S::samplesAside, "samples_aside", {1, 16}, "",
-       "Points of a surface along the side of a voxel, at least", "the bench's own"}};
+      {&S::samplesAside,
+       "samples_aside",
+       {1, 16},
+       "",
+       "Points of a surface along the side of a voxel, at least",
+       "the bench's own"}};
   return kTable;
 }
 const SettingsTable<BoxAroundCamera>& BoxAroundCamera::table() {
@@ -40,17 +51,29 @@ const SettingsTable<BoxAroundCamera>& BoxAroundCamera::table() {
 }
 const SettingsTable<UpdateEvery>& UpdateEvery::table() {
   using S = UpdateEvery;
-  static const SettingsTable<S> kTable = {{&S::frames, "frames", {2, 16}, "frames",
-                                           "From one update to the next", "Gaitatzes 2012, section 5.7"}};
+  static const SettingsTable<S> kTable = {{&S::frames,
+                                           "frames",
+                                           {2, 16},
+                                           "frames",
+                                           "From one update to the next",
+                                           "Gaitatzes 2012, section 5.7"}};
   return kTable;
 }
 const SettingsTable<LightGridSettings>& LightGridSettings::table() {
   using S = LightGridSettings;
   constexpr const char* kChapter = "Gaitatzes 2012, section 5.5.2";
   static const SettingsTable<S> kTable = {
-      {&S::resolution, "resolution", {4, 128}, "voxels", "Along the longest side of the box",
+      {&S::resolution,
+       "resolution",
+       {4, 128},
+       "voxels",
+       "Along the longest side of the box",
        "Gaitatzes 2012, section 5.6 (32)"},
-      {&S::iterations, "iterations", {0, 256}, "", "Steps of a voxel that light travels in a frame",
+      {&S::iterations,
+       "iterations",
+       {0, 256},
+       "",
+       "Steps of a voxel that light travels in a frame",
        "Gaitatzes 2012, Table 2 (11, 12, 64)"},
       {&S::transport, "transport", "How light goes from a voxel to its neighbours", kTransportSource},
       {&S::sources, "sources", "When light is put in", kChapter},
@@ -61,7 +84,10 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
       {&S::box, "box", "Where voxels are"},
       {&S::update, "update", "What is made anew in a frame", "Gaitatzes 2012, section 5.7"},
       {&S::injection, "injection", "How light is put in"},
-      {&S::stopBelow, "stop_below", {0.0, 1.0}, "",
+      {&S::stopBelow,
+       "stop_below",
+       {0.0, 1.0},
+       "",
        "Largest change of a voxel's flux in a step, in radiance times pi, below which steps end; 0: never",
        "the bench's own"}};
   return kTable;

@@ -10,10 +10,11 @@ namespace limen::techniques {
 
 /// Ways in which light goes from a voxel to its neighbours.
 struct MomentTransport {
-  static constexpr const char *kKind = "moments",
-                              *kSummary =
-                                  "each direction of the lobe that has a voxel's flux and mean direction goes "
-                                  "on as it was";
+  static constexpr const char
+      *kKind = "moments",
+      *kSummary =
+          "each direction of the lobe that has a voxel's flux and mean direction goes "
+          "on as it was";
 };
 struct FaceTransport {
   static constexpr const char *kKind = "faces",

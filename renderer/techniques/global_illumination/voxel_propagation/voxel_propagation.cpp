@@ -5,16 +5,17 @@
 //
 // - A voxel's light leaves it as the lobe of its flux and mean direction does (`transport: moments`): every
 //   direction of the lobe goes on through the faces that it meets, as it is. The rule printed, and light
-//   propagation volumes, turn what passes a face into a lobe about one of six axes at each step, so that light
-//   is scattered in empty space; it stays near its source, and the picture is farther from the truth than
-//   one without indirect light.
+//   propagation volumes, turn what passes a face into a lobe about one of six axes at each step, so that
+//   light is scattered in empty space; it stays near its source, and the picture is farther from the truth
+//   than one without indirect light.
 // - Sources last (`sources: steady`), so that what arrives need not be summed over steps, and the light of
 //   one frame is where that of the next begins.
 // - Light is put in by samples of the surfaces with their areas and a ray to the lamp, in place of fragments
 //   of voxels and a shadow map, into the empty voxel in front.
 // - Occupied voxels hold no light but what passes transparent surfaces. What reaches one comes back in the
 //   voxel that sent it.
-// - Voxels that a pixel's light is interpolated between must be seen from it where walls meet: floors beside a
+// - Voxels that a pixel's light is interpolated between must be seen from it where walls meet: floors beside
+// a
 //   thin wall would else have the light of its other side.
 // - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
 #include <epoxy/gl.h>

@@ -117,8 +117,7 @@ class Gathering : public Technique {
     cut_.emplace(frame.context(), views, tree_->tree().depth(), receivers_.limits.capacity(views),
                  receivers_.cuts);
     atlas_.emplace(frame.context(), views, glm::ivec2(receivers_.tilePx),
-                   kLight ? many_lods::AtlasForm::Wide : many_lods::AtlasForm::Depth,
-                   receivers_.tree.discs);
+                   kLight ? many_lods::AtlasForm::Wide : many_lods::AtlasForm::Depth, receivers_.tree.discs);
     views_.emplace(views * int64_t{sizeof(many_lods::CutView)}, nullptr);
     gathered_.emplace(views * int64_t{kLight ? 32 : 16}, nullptr);
     gl::ProgramCache& cache = frame.context().programs();
@@ -155,8 +154,7 @@ class Gathering : public Technique {
     gathered_->bindStorage(kGatheredBuffer);
     picture_->bindImage(kGatherImage, gl::Access::Write);
     setGrid(*upsample_, frame);
-    if constexpr (kLight)
-      upsample_->set("glossShare", static_cast<float>(settings_.part.surface.gloss));
+    if constexpr (kLight) upsample_->set("glossShare", static_cast<float>(settings_.part.surface.gloss));
     upsample_->set("normalPower", static_cast<float>(receivers_.normalPower));
     upsample_->set("planeTolerance",
                    static_cast<float>(receivers_.planeTolerance * frame.gpuScene().diagonal()));

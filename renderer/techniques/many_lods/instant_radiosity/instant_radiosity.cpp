@@ -56,19 +56,18 @@ struct InstantRadiositySettings {
   ReceiverSurface receivers;
   static const SettingsTable<InstantRadiositySettings>& table() {
     using S = InstantRadiositySettings;
-    static const SettingsTable<S> kTable = {
-        included(&S::lights),
-        included(&S::tree),
-        {&S::cuts, "cuts", kCutsText, kCutsSource},
-        included(&S::limits),
-        {&S::tilePx,
-         "tile",
-         {4, 512},
-         "px",
-         "Side of a light's shadow map",
-         "Holländer 2013, table 3.3 (32)"},
-        {&S::bias, "bias", kShadowBiasText},
-        {&S::receivers, "receivers", kReceiverText}};
+    static const SettingsTable<S> kTable = {included(&S::lights),
+                                            included(&S::tree),
+                                            {&S::cuts, "cuts", kCutsText, kCutsSource},
+                                            included(&S::limits),
+                                            {&S::tilePx,
+                                             "tile",
+                                             {4, 512},
+                                             "px",
+                                             "Side of a light's shadow map",
+                                             "Holländer 2013, table 3.3 (32)"},
+                                            {&S::bias, "bias", kShadowBiasText},
+                                            {&S::receivers, "receivers", kReceiverText}};
     return kTable;
   }
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Irradiance volume (experimental): one bounce of light from a lattice of probes, each of which looks all
 // around by two views that are drawn from cuts for all of them. Light between probes is interpolated whatever
-// lies between: it leaks through walls thinner than the lattice, and a probe within an object is dark. Source:
-// Holländer 2013, section 6.2 (named); Greger and others 1998; harmonics: Ramamoorthi and Hanrahan 2001.
+// lies between: it leaks through walls thinner than the lattice, and a probe within an object is dark.
+// Source: Holländer 2013, section 6.2 (named); Greger and others 1998; harmonics: Ramamoorthi and Hanrahan
+// 2001.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -33,7 +34,11 @@ struct VolumeSettings {
     using S = VolumeSettings;
     static const SettingsTable<S> kTable = {
         {&S::gain, "gain", {0.0, 1000.0}, "", "Factor on the light, for pictures of a useful brightness"},
-        {&S::probes, "probes", {2, 64}, "", "Probes along the scene's longest side; as far apart along the others",
+        {&S::probes,
+         "probes",
+         {2, 64},
+         "",
+         "Probes along the scene's longest side; as far apart along the others",
          "Holländer 2013, section 6.2 (n^3; no value)"},
         {&S::tilePx, "tile", {4, 64}, "px", "Side of each of a probe's two views"},
         {&S::nearest, "nearest", {0.0, 64.0}, "", "Nodes nearer than this are not seen, radii of leaves"},
@@ -124,9 +129,10 @@ class IrradianceVolume : public Technique {
     const glm::dvec3 extent = bounds.high - bounds.low, anchor = frame.gpuScene().anchor();
     const double longest = std::max(extent.x, std::max(extent.y, extent.z));
     for (int axis = 0; axis < 3; ++axis) {
-      grid_[axis] = longest > 0.0
-                        ? std::max(static_cast<int>(std::ceil(settings_.probes * extent[axis] / longest - 1e-9)), 1)
-                        : 1;
+      grid_[axis] =
+          longest > 0.0
+              ? std::max(static_cast<int>(std::ceil(settings_.probes * extent[axis] / longest - 1e-9)), 1)
+              : 1;
       step_[axis] = static_cast<float>(std::max(extent[axis], 1e-6 * std::max(longest, 1e-30)) / grid_[axis]);
     }
     low_ = glm::vec3(bounds.low - anchor) + 0.5F * step_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Natural illumination: an environment around the scene stands for distant lights, each with a shadow map or
-// seen along rays, on diffuse and glossy surfaces. Source: Holländer 2013, section 3.6.2 (1,024 lights). Views
-// stand so far away that light falls in parallel up to a fraction of a degree.
+// seen along rays, on diffuse and glossy surfaces. Source: Holländer 2013, section 3.6.2 (1,024 lights).
+// Views stand so far away that light falls in parallel up to a fraction of a degree.
 #include <cmath>
 #include <optional>
 #include <variant>
@@ -23,8 +23,8 @@ namespace limen::techniques {
 namespace {
 
 constexpr const char* kSkyShadowPass = "many_lods/polygons";
-/// Distance of views from the middle of what they enclose, diagonals: a parallax of half a diagonal is less than half a
-/// degree, and depths keep 2^-17 of the diagonal.
+/// Distance of views from the middle of what they enclose, diagonals: a parallax of half a diagonal is less
+/// than half a degree, and depths keep 2^-17 of the diagonal.
 constexpr double kSkyDistance = 64.0;
 
 /// What views enclose.
@@ -40,7 +40,8 @@ struct SkyMaps {
     static const SettingsTable<S> kTable = {
         {&S::tilePx, "tile", {4, 512}, "px", "Side of a light's shadow map"},
         {&S::fit, "fit",
-         "What maps enclose: everything, or the parts that cast shadows, where all others are a ground that hides "
+         "What maps enclose: everything, or the parts that cast shadows, where all others are a ground that "
+         "hides "
          "no light"}};
     return kTable;
   }
@@ -55,12 +56,11 @@ struct SkyCuts {
   SkyMaps maps;
   static const SettingsTable<SkyCuts>& table() {
     using S = SkyCuts;
-    static const SettingsTable<S> kTable = {
-        included(&S::tree),
-        {&S::cuts, "cuts", kCutsText, kCutsSource},
-        included(&S::limits),
-        {&S::bias, "bias", kShadowBiasText},
-        included(&S::maps)};
+    static const SettingsTable<S> kTable = {included(&S::tree),
+                                            {&S::cuts, "cuts", kCutsText, kCutsSource},
+                                            included(&S::limits),
+                                            {&S::bias, "bias", kShadowBiasText},
+                                            included(&S::maps)};
     return kTable;
   }
 };
@@ -122,8 +122,7 @@ class NaturalIllumination : public Technique {
                      cuts_ ? cuts_->tree.discs : many_lods::Discs::Spheres);
       frame.passes().setBytesHeld(cuts_ ? kSplatPass : kSkyShadowPass, atlas_->bytes());
     }
-    radiosity_.emplace(frame, atlas_ ? Radiosity::Sight::Atlas : Radiosity::Sight::Rays,
-                       settings_.receivers);
+    radiosity_.emplace(frame, atlas_ ? Radiosity::Sight::Atlas : Radiosity::Sight::Rays, settings_.receivers);
   }
 
   void render(frame::Frame& frame) override {
@@ -133,8 +132,8 @@ class NaturalIllumination : public Technique {
       findCuts(frame, false);
       const auto scope = frame.passes().open(kSplatPass);
       atlas_->draw(*cut_, tree_->tree().nodes(), *views_, tree_->discs(0.0));
-      bias = cuts_->bias.of(tree_->tree().leafRadius(), pixelSlope_, cuts_->tree.discs,
-                            cuts_->limits.epsilonPx);
+      bias =
+          cuts_->bias.of(tree_->tree().leafRadius(), pixelSlope_, cuts_->tree.discs, cuts_->limits.epsilonPx);
     } else if (polygons_) {
       const auto scope = frame.passes().open(kSkyShadowPass);
       triangles_->draw(frame, *views_, static_cast<uint32_t>(settings_.lights), *atlas_);

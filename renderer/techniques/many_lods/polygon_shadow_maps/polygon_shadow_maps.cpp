@@ -30,7 +30,8 @@ struct PolygonShadowSettings {
          "bias",
          {0.0, 16.0},
          "px",
-         "How much nearer to a light than a point its occluders are, pixels of the map times 1 + the surface's "
+         "How much nearer to a light than a point its occluders are, pixels of the map times 1 + the "
+         "surface's "
          "slope"},
         {&S::receivers, "receivers", kReceiverText}};
     return kTable;

@@ -21,7 +21,8 @@
 namespace limen::techniques {
 namespace {
 
-constexpr const char *kRayGatherPass = "many_lods/gather_rays", *kGatheredMeanPass = "many_lods/gathered_mean";
+constexpr const char *kRayGatherPass = "many_lods/gather_rays",
+                     *kGatheredMeanPass = "many_lods/gathered_mean";
 constexpr int kRaysOfPass = 32;  // a software renderer ends loops after 65,535 rounds
 
 struct LampBounce {
@@ -31,10 +32,18 @@ struct LampBounce {
   double clamp = 0.0;
   static const SettingsTable<LampBounce>& table() {
     static const SettingsTable<LampBounce> kTable = {
-        {&LampBounce::clamp, "clamp", {0.0, 1.0}, "",
-         "Distance below which light that surfaces send grows no more, as many_lods/traced_radiosity bounds it; 0: "
+        {&LampBounce::clamp,
+         "clamp",
+         {0.0, 1.0},
+         "",
+         "Distance below which light that surfaces send grows no more, as many_lods/traced_radiosity bounds "
+         "it; 0: "
          "no bound"},
-        {&LampBounce::gain, "gain", {0.0, 1000.0}, "", "Factor on the light, as many_lods/traced_radiosity has it"}};
+        {&LampBounce::gain,
+         "gain",
+         {0.0, 1000.0},
+         "",
+         "Factor on the light, as many_lods/traced_radiosity has it"}};
     return kTable;
   }
 };
@@ -142,8 +151,8 @@ class RayGathered : public Technique {
       intensity = light.parts[0].radiance *
                   static_cast<float>(std::get<LampBounce>(settings_.light).gain * light.area());
     }
-    gather_->set("leastDistance",
-                 static_cast<float>(std::get<LampBounce>(settings_.light).clamp * frame.gpuScene().diagonal()));
+    gather_->set("leastDistance", static_cast<float>(std::get<LampBounce>(settings_.light).clamp *
+                                                     frame.gpuScene().diagonal()));
     gather_->set("lampCentre", centre);
     gather_->set("lampZ", direction);
     gather_->set("intensity", intensity);
@@ -157,15 +166,17 @@ class RayGathered : public Technique {
 const RegisteredTechnique<RayGathered> kRayGatheredRegistered{
     {.name = "many_lods/ray_gathered",
      .version = 1,
-     .summary = "Light that rays gather from lit surfaces or from an environment, on diffuse and glossy surfaces",
+     .summary =
+         "Light that rays gather from lit surfaces or from an environment, on diffuse and glossy surfaces",
      .source = "Kajiya 1986; Veach and Guibas 1995 (HOL-27, HOL-28)",
      .product = ProductKind::Colour,
      .reference = true,
-     .counters = {{"rays_per_px", "Rays from each pixel's point", "", Direction::LowerIsBetter},
-                  {"standard_error",
-                   "Standard error of pixels' channel means as of independent rays, root mean square over the "
-                   "picture; the pattern's is smaller",
-                   "", Direction::LowerIsBetter}},
+     .counters =
+         {{"rays_per_px", "Rays from each pixel's point", "", Direction::LowerIsBetter},
+          {"standard_error",
+           "Standard error of pixels' channel means as of independent rays, root mean square over the "
+           "picture; the pattern's is smaller",
+           "", Direction::LowerIsBetter}},
      .effort = "rays"}};
 
 }  // namespace

@@ -264,8 +264,9 @@ std::vector<Quantity> mapQuantities() {
 const RegisteredTechnique<ReflectionMaps> kReflectionMapsRegistered{
     {.name = "many_lods/reflection_maps",
      .version = 1,
-     .summary = "A map of its surroundings for each object that reflects or refracts, drawn from cuts for all of "
-                "them",
+     .summary =
+         "A map of its surroundings for each object that reflects or refracts, drawn from cuts for all of "
+         "them",
      .source = "Holländer 2013, section 3.6.3 (HOL-31, HOL-32)",
      .product = ProductKind::Colour,
      .needs = {"mirrors"},

@@ -130,10 +130,10 @@ TEST_F(VoxelPropagationLight, StepsCreateNoEnergy) {
     }
 }
 
-/// The rule as printed, R1: a field that is equal everywhere keeps 0.8787 of itself at a step with cones of 45
-/// degrees and their solid angle, as these have so much of the sphere, and 2 pi (1 - cos 45) = 1.8403 times
-/// as much without. No lasting field is equal, but the gain of the first step, whose light is all in cosine
-/// lobes beside walls, is bounded by both sides: the specification's gains, and those of clamping.
+/// The rule as printed, R1: a field that is equal everywhere keeps 0.8787 of itself at a step with cones of
+/// 45 degrees and their solid angle, as these have so much of the sphere, and 2 pi (1 - cos 45) = 1.8403
+/// times as much without. No lasting field is equal, but the gain of the first step, whose light is all in
+/// cosine lobes beside walls, is bounded by both sides: the specification's gains, and those of clamping.
 TEST_F(VoxelPropagationLight, ThePrintedRuleLosesOrCreatesEnergy) {
   const scene::Scene box = makeScene("global_illumination/closed_box", {{"albedo", 0.9}});
   const auto gain = [&](bool normalised) {
@@ -158,7 +158,8 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
   const scene::Scene box = makeScene("global_illumination/closed_box", {{"albedo", 0.5}});
   for (const GridReflection reflection :
        {GridReflection::Axis, GridReflection::Normal, GridReflection::Diffuse})
-    for (const LightTransport& transport : {LightTransport(MomentTransport{}), LightTransport(FaceTransport{})}) {
+    for (const LightTransport& transport :
+         {LightTransport(MomentTransport{}), LightTransport(FaceTransport{})}) {
       LightGridSettings settings;
       settings.resolution = 12, settings.reflection = reflection, settings.transport = transport;
       settings.sources = LightSources::Once, settings.format = FieldFormat::Single;
@@ -188,8 +189,8 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
 TEST_F(VoxelPropagationLight, WallsPassTheirShare) {
   for (const char* coverage : {"thin", "conservative"}) {
     const auto behind = [&](double transmittance) {
-      const scene::Scene scene = makeScene("global_illumination/divided_room",
-                                           {{"transmittance", transmittance}, {"albedo", 0.1}});
+      const scene::Scene scene =
+          makeScene("global_illumination/divided_room", {{"transmittance", transmittance}, {"albedo", 0.1}});
       const Rendered rendered =
           indirect(scene, {{"format", std::string("32f")}, {"coverage", std::string(coverage)}});
       return meanOf(rendered.product, 18, 32);
@@ -220,9 +221,10 @@ TEST_F(VoxelPropagationLight, ReflectionByNormalIsNearerToASlantedWallsThanByAxi
   const scene::Scene scene = makeScene("global_illumination/slanted_wall");
   const Image reference = truth(scene);
   const auto of = [&](const char* reflection) {
-    return error(indirect(scene, {{"reflection", std::string(reflection)}, {"transport", std::string("cones")}})
-                     .product,
-                 reference, 12);
+    return error(
+        indirect(scene, {{"reflection", std::string(reflection)}, {"transport", std::string("cones")}})
+            .product,
+        reference, 12);
   };
   EXPECT_LT(of("normal"), of("axis"));
   EXPECT_LT(of("diffuse"), of("axis"));
@@ -287,7 +289,8 @@ TEST_F(VoxelPropagationLight, SpreadUpdatesEndAsWholeOnes) {
 /// have added.
 TEST_F(VoxelPropagationLight, StoppingEarlyLeavesThePicture) {
   const scene::Scene scene = makeScene("global_illumination/divided_room", {{"albedo", 0.3}});
-  const Given steps = {{"resolution", int64_t{12}}, {"iterations", int64_t{256}}, {"format", std::string("32f")}};
+  const Given steps = {
+      {"resolution", int64_t{12}}, {"iterations", int64_t{256}}, {"format", std::string("32f")}};
   Given stopped = steps;
   stopped["stop_below"] = 1e-4;
   const Image a = indirect(scene, steps).product, b = indirect(scene, stopped).product;
@@ -297,8 +300,8 @@ TEST_F(VoxelPropagationLight, StoppingEarlyLeavesThePicture) {
 }
 
 /// GI-13. A box around the camera that holds the room, of voxels of the same size, gives what the box of the
-/// scene does, but for walls that lie up to a voxel, 1/14 of the room, farther in. In a closed box that emits e
-/// everywhere, that is e a / (1 - a) = 0.5.
+/// scene does, but for walls that lie up to a voxel, 1/14 of the room, farther in. In a closed box that emits
+/// e everywhere, that is e a / (1 - a) = 0.5.
 TEST_F(VoxelPropagationLight, ABoxAroundTheCameraShowsTheSameRoom) {
   const scene::Scene scene = makeScene("global_illumination/closed_box", {{"emission", 0.5}});
   const double size = 2.0 / (16.0 - 1.9);

@@ -15,7 +15,8 @@ struct Met {
 };
 
 /// In double precision, one triangle after the other.
-inline Met firstMet(const scene::Scene& scene, glm::dvec3 origin, glm::dvec3 direction, double least, double most) {
+inline Met firstMet(const scene::Scene& scene, glm::dvec3 origin, glm::dvec3 direction, double least,
+                    double most) {
   Met out;
   out.along = most;
   bool found = false;

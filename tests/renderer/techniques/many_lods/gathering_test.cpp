@@ -89,17 +89,19 @@ TEST_F(Gatherings, LightComesToThatOfRays) {
 }
 
 // A half-plane between lamp and floor is lit from above alone, and the floor beneath sees its dark side: no
-// light comes to what the camera sees. If both sides were lit, the floor would receive a part of what the lamp
-// makes of the half-plane, whose radiance is the unit here.
+// light comes to what the camera sees. If both sides were lit, the floor would receive a part of what the
+// lamp makes of the half-plane, whose radiance is the unit here.
 TEST_F(Gatherings, TheBackOfALitSurfaceIsDark) {
   const scene::Scene scene = makeScene("half_plane");
   const scene::AreaLight& light = scene.lights[0];
   const double above = light.centre.y - scene.casterBounds().high.y;
-  const double lit = 10.0 * light.area() * double(light.parts[0].radiance.x) * 0.7 / (std::acos(-1.0) * above * above);
+  const double lit =
+      10.0 * light.area() * double(light.parts[0].radiance.x) * 0.7 / (std::acos(-1.0) * above * above);
   for (const char* discs : {"oriented", "spheres"}) {
     Given given = receivers(16, 1);
     given["discs"] = std::string(discs);
-    EXPECT_LT(meanLight(render(scene, "many_lods/point_based", given, {20, 15}).product), 0.01 * lit) << discs;
+    EXPECT_LT(meanLight(render(scene, "many_lods/point_based", given, {20, 15}).product), 0.01 * lit)
+        << discs;
   }
   EXPECT_LT(meanLight(render(scene, "many_lods/ray_gathered", {{"rays", int64_t{64}}}, {20, 15}).product),
             0.01 * lit);
@@ -113,10 +115,11 @@ TEST_F(Gatherings, LightOfProbesComesToThatOfRaysAsTheyGrowDenser) {
   const Image truth = render(scene, "many_lods/ray_gathered", {{"rays", int64_t{512}}}, {24, 24}).product;
   double before = 1e9;
   for (const int64_t probes : {2, 5, 12}) {
-    const Image found = render(scene, "many_lods/irradiance_volume",
-                               {{"levels", int64_t{13}}, {"room", int64_t{1024}}, {"probes", probes}, {"tile", int64_t{16}}},
-                               {24, 24})
-                            .product;
+    const Image found =
+        render(scene, "many_lods/irradiance_volume",
+               {{"levels", int64_t{13}}, {"room", int64_t{1024}}, {"probes", probes}, {"tile", int64_t{16}}},
+               {24, 24})
+            .product;
     const double error = meanDifference(found, truth);
     EXPECT_LT(error, before) << probes;
     before = error;

@@ -2,10 +2,10 @@
 #include <bit>
 #include <random>
 
-#include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 #include "renderer/many_lods/multi_cut.h"
 #include "renderer/many_lods/node_predicate.h"
 #include "renderer/many_lods/view_atlas.h"
+#include "renderer/techniques/many_lods/many_lods_pass_bindings.h"
 #include "renderer/techniques/many_lods/polygon_tiles.h"
 #include "renderer/techniques/many_lods/scene_tree.h"
 #include "renderer/techniques/many_lods/virtual_lights.h"
@@ -72,15 +72,15 @@ TEST_F(RadiosityPictures, TracedLightIsThatOfPaths) {
 
 // Energy: virtual lights carry what rays gather from lit surfaces, with the same bound on the light of near
 // surfaces (without one, single lights near a receiver would outweigh all others). 4,096 lights and 512 rays
-// a pixel, of low discrepancy: half a percent each. In the hall and on the sphere about a hundred of the lights
-// lie where what is seen looks: a few percent.
+// a pixel, of low discrepancy: half a percent each. In the hall and on the sphere about a hundred of the
+// lights lie where what is seen looks: a few percent.
 TEST_F(RadiosityPictures, VirtualLightsCarryTheLightThatRaysGather) {
   for (const char* name : {"cornell_box", "columns_hall", "resting_sphere"}) {
     const scene::Scene scene = makeScene(name);
     const auto gathered = [&](double clamp) {
-      return mean(render(scene, "many_lods/ray_gathered",
-                         {{"rays", int64_t{512}}, {"light.clamp", clamp}}, {16, 16})
-                      .product);
+      return mean(
+          render(scene, "many_lods/ray_gathered", {{"rays", int64_t{512}}, {"light.clamp", clamp}}, {16, 16})
+              .product);
     };
     const double light = gathered(0.1), all = gathered(0.0);
     ASSERT_GT(light, 0.0) << name;
@@ -149,9 +149,8 @@ TEST_F(RadiosityPictures, TilesHoldTheDepthsThatRaysMeet) {
         const double square = glm::dot(at, at);
         const bool hemisphere = number < 2;
         if (hemisphere && square >= 1.0) continue;
-        const glm::dvec3 local =
-            hemisphere ? glm::dvec3(2.0 * at, 1.0 - square) / (1.0 + square)
-                       : glm::dvec3(at * glm::dvec2(view.axisX.w, view.axisY.w), 1.0);
+        const glm::dvec3 local = hemisphere ? glm::dvec3(2.0 * at, 1.0 - square) / (1.0 + square)
+                                            : glm::dvec3(at * glm::dvec2(view.axisX.w, view.axisY.w), 1.0);
         const glm::dvec3 direction = local.x * glm::dvec3(glm::vec3(view.axisX)) +
                                      local.y * glm::dvec3(glm::vec3(view.axisY)) +
                                      local.z * glm::dvec3(glm::vec3(view.axisZ));

@@ -22,8 +22,8 @@ class GatheredRays : public TechniqueTest {
   /// The ground alone.
   static scene::Scene openFloor() {
     scene::Scene scene = makeScene("half_plane");
-    const auto ground =
-        std::find_if(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.receiverOnly; });
+    const auto ground = std::find_if(scene.parts.begin(), scene.parts.end(),
+                                     [](const auto& part) { return part.receiverOnly; });
     const scene::Part kept = *ground;
     scene.mesh.triangles = {scene.mesh.triangles.begin() + kept.firstTriangle,
                             scene.mesh.triangles.begin() + kept.firstTriangle + kept.triangleCount};
@@ -89,7 +89,8 @@ TEST_F(GatheredRays, ASkyOverAnOpenFloorIsItsIntegral) {
   const double irradiance = std::numbers::pi * 1.0 + 2.0 * std::numbers::pi / 3.0 * (0.5 - 1.0) +
                             4.0 * 2.0 * std::numbers::pi * (w2 - w2 * w2 * (1.0 - std::exp(-1.0 / w2)));
   const double expected = albedo * irradiance / std::numbers::pi;
-  const Given sky = {{"zenith", 0.5}, {"horizon", 1.0}, {"sun", 4.0}, {"sun_width", 20.0}, {"sun_elevation", 90.0}};
+  const Given sky = {
+      {"zenith", 0.5}, {"horizon", 1.0}, {"sun", 4.0}, {"sun_width", 20.0}, {"sun_elevation", 90.0}};
   const auto seen = [&](const Rendered& rendered) {
     double sum = 0.0;
     int count = 0;
@@ -105,8 +106,10 @@ TEST_F(GatheredRays, ASkyOverAnOpenFloorIsItsIntegral) {
   for (const char* shadows : {"rays", "polygons", "cuts"}) {
     Given lights = {{"lights", int64_t{512}}, {"shadows", std::string(shadows)}};
     for (const auto& [name, value] : sky) lights["sky." + name] = value;
-    if (std::string(shadows) == "cuts") lights["shadows.levels"] = int64_t{12}, lights["shadows.room"] = int64_t{4096};
-    EXPECT_NEAR(seen(render(scene, "many_lods/natural_illumination", lights, {16, 12})), expected, 0.01 * expected)
+    if (std::string(shadows) == "cuts")
+      lights["shadows.levels"] = int64_t{12}, lights["shadows.room"] = int64_t{4096};
+    EXPECT_NEAR(seen(render(scene, "many_lods/natural_illumination", lights, {16, 12})), expected,
+                0.01 * expected)
         << shadows;
   }
 }
@@ -115,10 +118,15 @@ TEST_F(GatheredRays, ASkyOverAnOpenFloorIsItsIntegral) {
 // 2 pi w^2 (1 - exp(-2 / w^2)), wherever the sun stands: R2 of 1,024 points, half a percent.
 TEST_F(GatheredRays, LightsOfASkyCarryItsWholeLight) {
   for (const double elevation : {-30.0, 0.0, 60.0}) {
-    const SkySettings sky{.zenith = 0.3, .horizon = 0.9, .ground = 0.2, .sun = 10.0, .sunWidthDeg = 8.0, .sunElevationDeg = elevation};
+    const SkySettings sky{.zenith = 0.3,
+                          .horizon = 0.9,
+                          .ground = 0.2,
+                          .sun = 10.0,
+                          .sunWidthDeg = 8.0,
+                          .sunElevationDeg = elevation};
     const double w = glm::radians(8.0);
-    const double expected =
-        2.0 * std::numbers::pi * (0.9 + 0.5 * (0.3 - 0.9) + 0.2 + 10.0 * w * w * (1.0 - std::exp(-2.0 / (w * w))));
+    const double expected = 2.0 * std::numbers::pi *
+                            (0.9 + 0.5 * (0.3 - 0.9) + 0.2 + 10.0 * w * w * (1.0 - std::exp(-2.0 / (w * w))));
     double sum = 0.0;
     for (const SkyLight& light : skyLights(sky, 1024)) {
       sum += light.irradiance;
@@ -142,7 +150,8 @@ TEST_F(GatheredRays, NaturalLightComesToThatOfRays) {
       Given lights = surface;
       lights["lights"] = int64_t{512};
       lights["shadows"] = std::string(shadows);
-      if (std::string(shadows) == "cuts") lights["shadows.levels"] = int64_t{14}, lights["shadows.room"] = int64_t{16384};
+      if (std::string(shadows) == "cuts")
+        lights["shadows.levels"] = int64_t{14}, lights["shadows.room"] = int64_t{16384};
       const Image found = render(scene, "many_lods/natural_illumination", lights, {24, 18}).product;
       EXPECT_LT(meanDifference(found, truth), 0.05 * mean(truth)) << shadows << " " << gloss;
       EXPECT_NEAR(mean(found), mean(truth), 0.02 * mean(truth)) << shadows << " " << gloss;

@@ -19,11 +19,12 @@ class ReflectionMapPictures : public TechniqueTest {
 
 // One mirror in a room: rays that leave its surface meet what its map holds, once the map's depths say where.
 // By their direction alone they miss by the mirror's radius, a third of the room's half. What remains is the
-// map's resolution: it falls with it, from cuts as far as 32,768 points resolve, half as fine as these pixels.
+// map's resolution: it falls with it, from cuts as far as 32,768 points resolve, half as fine as these
+// pixels.
 TEST_F(ReflectionMapPictures, ComeToTracedRaysByDepthsAndResolution) {
-  const scene::Scene scene = makeScene("mirrors/crowd", {{"objects", int64_t{1}}, {"glass_every", int64_t{0}}});
-  const Image truth =
-      render(scene, "reflections/ray_traced", {{"bounces", int64_t{1}}}, {64, 48}).product;
+  const scene::Scene scene =
+      makeScene("mirrors/crowd", {{"objects", int64_t{1}}, {"glass_every", int64_t{0}}});
+  const Image truth = render(scene, "reflections/ray_traced", {{"bounces", int64_t{1}}}, {64, 48}).product;
   for (const char* kind : {"rays", "cuts"}) {
     const double fine = meanDifference(maps(scene, 128, 4, kind), truth);
     const double share = std::string(kind) == "cuts" ? 0.75 : 0.5;
@@ -35,11 +36,13 @@ TEST_F(ReflectionMapPictures, ComeToTracedRaysByDepthsAndResolution) {
 // Maps of points against maps of triangles, of the same pixels: the pictures differ where outlines in maps
 // shift by a pixel, for spheres by two.
 TEST_F(ReflectionMapPictures, OfPointsAreThoseOfTriangles) {
-  const scene::Scene scene = makeScene("mirrors/crowd", {{"objects", int64_t{8}}, {"glass_every", int64_t{3}}});
+  const scene::Scene scene =
+      makeScene("mirrors/crowd", {{"objects", int64_t{8}}, {"glass_every", int64_t{3}}});
   const Image triangles = maps(scene, 64, 3, "rays");
-  const Image without = render(scene, "many_lods/reflection_maps",
-                               {{"tile", int64_t{4}}, {"steps", int64_t{0}}, {"maps", std::string("rays")}}, {64, 48})
-                            .product;
+  const Image without =
+      render(scene, "many_lods/reflection_maps",
+             {{"tile", int64_t{4}}, {"steps", int64_t{0}}, {"maps", std::string("rays")}}, {64, 48})
+          .product;
   // Of the objects' light, whose size maps of 4 pixels have to a factor of two or so.
   const double light = meanDifference(triangles, without);
   ASSERT_GT(light, 0.0);
@@ -55,8 +58,7 @@ TEST_F(ReflectionMapPictures, LeaveTheirObjectOut) {
                              scene.mesh.triangles.begin() + object.firstTriangle);
   scene.parts = {object};
   scene.parts[0].firstTriangle = 0;
-  const Image truth =
-      render(scene, "reflections/ray_traced", {{"bounces", int64_t{1}}}, {64, 48}).product;
+  const Image truth = render(scene, "reflections/ray_traced", {{"bounces", int64_t{1}}}, {64, 48}).product;
   for (const char* kind : {"rays", "cuts"})
     EXPECT_LT(meanDifference(maps(scene, 32, 3, kind), truth), 1e-6) << kind;
 }
