@@ -28,4 +28,18 @@ vec3 viewRay(int view, ivec2 pixel) {
   return vec3(viewLow[view] + viewExtent[view] * (vec2(pixel) + 0.5) / vec2(viewSizePx[view]), 1.0);
 }
 
-float depthAt(int view, ivec2 pixel) { return texelFetch(viewDepths[view], pixel, 0).x; }
+// Samplers are named by constants: after a fetch from an array of them by a variable index, other fetches of the same constant
+// level read 0 on Mesa 22.3's llvmpipe.
+float depthAt(int view, ivec2 pixel) {
+#if VIEWS > 1
+  if (view == 1) return texelFetch(viewDepths[1], pixel, 0).x;
+#endif
+  return texelFetch(viewDepths[0], pixel, 0).x;
+}
+
+uint triangleAt(int view, ivec2 pixel) {
+#if VIEWS > 1
+  if (view == 1) return texelFetch(viewTriangles[1], pixel, 0).x;
+#endif
+  return texelFetch(viewTriangles[0], pixel, 0).x;
+}

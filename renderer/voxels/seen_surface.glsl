@@ -25,7 +25,7 @@ bool isLit(int view, vec3 place, vec3 normal, uint triangle) {
   if (!isInView(view, at)) return true;
   const ivec2 pixel = ivec2(at);
   const float depth = depthAt(view, pixel);
-  if (!(depth > 0.0) || texelFetch(viewTriangles[view], pixel, 0).x == triangle) return true;
+  if (!(depth > 0.0) || triangleAt(view, pixel) == triangle) return true;
   // The point's own plane along the pixel's ray; where it is nearly edge-on the point itself.
   const vec3 n = normalize(mat3(viewFromVoxels[view]) * normal), ray = viewRay(view, pixel);
   const float along = dot(n, ray), own = abs(along) > 0.05 ? dot(n, point) / along : point.z;
@@ -34,7 +34,7 @@ bool isLit(int view, vec3 place, vec3 normal, uint triangle) {
 #endif
 
 SeenSurface surfaceOf(int view, ivec2 pixel, vec3 place) {
-  const uint triangle = texelFetch(viewTriangles[view], pixel, 0).x;
+  const uint triangle = triangleAt(view, pixel);
   const uvec3 vertices = sceneTriangle(triangle);
   const vec3 a = scenePosition(vertices.x), b = scenePosition(vertices.y), c = scenePosition(vertices.z);
   const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[triangle]];

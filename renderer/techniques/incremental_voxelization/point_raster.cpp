@@ -3,8 +3,7 @@
 // image after another; points of the images drawn into a volume of their own, those of the light added up and
 // those of the camera in their place, which then replaces what is in the volume (IV-01, IV-04, IV-05, IV-09).
 // Source: Gaitatzes 2012, sections 7.4 to 7.6. Departures: the clean-up is a compute pass over voxels instead of
-// a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands for. Occupancy
-// is tested; normals and harmonics are not, and read as 0 on llvmpipe: only their cost may be used.
+// a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands for.
 #include <epoxy/gl.h>
 
 #include <array>
@@ -202,7 +201,7 @@ class PointRaster : public IncrementalTechnique {
 
 const RegisteredTechnique<PointRaster> kPointRasterRegistered{
     {.name = "incremental_voxelization/point_raster",
-     .version = 1,
+     .version = 2,
      .summary = "Voxels kept in textures, used in turn; points are drawn into layers or into an atlas",
      .source = "Gaitatzes 2012, sections 7.4 to 7.6 (IV-01, IV-04, IV-05, IV-09)",
      .product = ProductKind::Colour,

@@ -20,6 +20,20 @@ struct Sequence {
   std::map<std::string, Image> atlas;  // of the point raster
 };
 
+double sumOf(const std::vector<Image>& images, int channel) {
+  double sum = 0.0;
+  for (const Image& image : images)
+    for (size_t i = 0; i < image.pixels(); ++i) sum += image.data[4 * i + static_cast<size_t>(channel)];
+  return sum;
+}
+
+// Whether the way from a point to another meets the box, made larger by `margin` on each side.
+bool meetsBox(glm::dvec3 from, glm::dvec3 to, const scene::Bounds& box, double margin) {
+  const glm::dvec3 a = (box.low - margin - from) / (to - from), b = (box.high + margin - from) / (to - from);
+  const glm::dvec3 enter = glm::min(a, b), leave = glm::max(a, b);
+  return std::max({enter.x, enter.y, enter.z, 0.0}) < std::min({leave.x, leave.y, leave.z, 1.0});
+}
+
 class IncrementalSequence : public TechniqueTest {
  protected:
   static Sequence run(const scene::Scene& scene, const std::string& technique, Given given,
@@ -173,6 +187,78 @@ TEST_F(IncrementalSequence, LightDoesNotBuildUp) {
   EXPECT_LE(brightest, 0.8 * 0.65 + 1e-3);  // half floats
   EXPECT_GT(onceSum, 100.0);
   EXPECT_NEAR(oftenSum, onceSum, 0.001 * onceSum);
+}
+
+// A cosine lobe has 0.886 times its radiance in band 0. Samples of the camera replace each other in one form
+// and are averaged in the other; what the light's image alone shows are sums of areas there, means here.
+// Neither grows while the light turns about the scene.
+TEST_F(IncrementalSequence, HarmonicsOfThePointRasterHoldTheSameLight) {
+  const scene::Scene scene = makeScene("moving/box", {{"reach", 0.0}});
+  for (const char* use : {"shade", "voxels"}) {
+    const auto given = [&](int frames) {
+      return sequence(frames, 0.01,
+                      {{"sequence.light_turn", 9.0},
+                       {"points.shift", false},
+                       {"light_map.use", std::string(use)},
+                       {"clean_up.proof", std::string("centre")},
+                       {"light_map.resolution", int64_t{512}}});
+    };
+    const Sequence compute = run(scene, "two_stage", given(0), {160, 160}, true);
+    const Sequence raster = run(scene, "point_raster", given(0), {160, 160});
+    const Sequence later = run(scene, "point_raster", given(8), {160, 160});
+    for (int channel = 0; channel < 3; ++channel) {
+      const Image& atlas = raster.atlas.at(channel == 0   ? "harmonics_red"
+                                           : channel == 1 ? "harmonics_green"
+                                                          : "harmonics_blue");
+      const double expected = 0.886226925 * sumOf(compute.lights, channel);
+      EXPECT_GT(expected, 100.0);
+      // At the borders of surfaces voxels hold parts of them.
+      EXPECT_NEAR(sumOf({atlas}, 0), expected, 0.03 * expected) << use;
+    }
+    EXPECT_NEAR(sumOf({later.atlas.at("harmonics_red")}, 0), sumOf({raster.atlas.at("harmonics_red")}, 0),
+                0.05 * sumOf({raster.atlas.at("harmonics_red")}, 0))
+        << use;
+  }
+}
+
+// The box's shadow on the floor: dark where the way to the light's middle meets the box, elsewhere Lambert's
+// law.
+TEST_F(IncrementalSequence, VoxelsInAShadowAreDark) {
+  const scene::Scene scene = makeScene("moving/box", {{"reach", 0.0}});
+  const scene::Bounds box{glm::dvec3(0.013, 1.207, 0.011) - 0.25, glm::dvec3(0.013, 1.207, 0.011) + 0.25};
+  const glm::dvec3 light = scene.lights.at(0).centre;
+  const double strength = 0.7, albedo = 0.65;
+  for (const char* use : {"shade", "voxels"}) {
+    const Sequence lit = run(scene, "two_stage",
+                             sequence(0, 0.01,
+                                      {{"light_map.use", std::string(use)},
+                                       {"light_map.resolution", int64_t{512}},
+                                       {"light_map.strength", strength}}),
+                             {160, 160}, true);
+    const double side = lit.grid.voxelSize, reach = 0.5 * std::sqrt(3.0) * side;
+    int dark = 0, bright = 0;
+    glm::ivec3 v;
+    for (v.z = 0; v.z < lit.grid.resolution.z; ++v.z)
+      for (v.y = 0; v.y < lit.grid.resolution.y; ++v.y)
+        for (v.x = 0; v.x < lit.grid.resolution.x; ++v.x) {
+          const glm::dvec3 at = lit.grid.centre(v);
+          if (!lit.voxels[static_cast<size_t>(lit.grid.indexOf(v))] || std::abs(at.y) > 0.5 * side + 1e-3 ||
+              at.z < -2.0 + 2.0 * side)
+            continue;
+          const double value = lit.lights[static_cast<size_t>(v.z)].at(v.x, v.y, 0);
+          const glm::dvec3 place(at.x, 0.0, at.z), away = light - place;
+          if (meetsBox(place, light, box, -reach)) {
+            ++dark;
+            EXPECT_LT(value, 1e-3) << use << " " << at.x << " " << at.z;
+          } else if (!meetsBox(place, light, box, reach)) {
+            ++bright;
+            EXPECT_NEAR(value, strength * albedo * away.y / glm::length(away), 0.02)
+                << use << " " << at.x << " " << at.z;
+          }
+        }
+    EXPECT_GT(dark, 20) << use;
+    EXPECT_GT(bright, 500) << use;
+  }
 }
 
 TEST_F(IncrementalSequence, TheSameFramesGiveTheSameBytes) {
