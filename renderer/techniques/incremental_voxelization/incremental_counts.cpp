@@ -126,11 +126,12 @@ std::vector<Quantity> IncrementalTechnique::quantities() {
           {"hausdorff_rms", "RMS distance, the larger of both directions", "% of diagonal", lower, table},
           {"from_voxels_mean", "Mean distance from voxels to the surface", "% of diagonal", lower},
           {"from_surface_mean", "Mean distance from the surface to voxels", "% of diagonal", lower},
-          {"full_hausdorff_largest", "Hausdorff distance of the whole mesh's voxels", "% of diagonal", neither,
-           table},
+          {"full_hausdorff_largest", "Hausdorff distance of the whole mesh's voxels", "% of diagonal",
+           neither, table},
           {"full_hausdorff_mean", "Mean distance of the whole mesh's voxels, the larger of both directions",
            "% of diagonal", neither, table},
-          {"beyond_full_mean", "Mean distance beyond that of the whole mesh's voxels", "% of diagonal", lower, table},
+          {"beyond_full_mean", "Mean distance beyond that of the whole mesh's voxels", "% of diagonal", lower,
+           table},
           {"volume_mib", "Memory of the volume", "MiB", lower}};
 }
 

@@ -9,7 +9,11 @@ const SettingsTable<CubeAroundCamera>& CubeAroundCamera::table() {
   using S = CubeAroundCamera;
   static const SettingsTable<S> kTable = {
       {&S::extent, "extent", {0.01, 4.0}, "", "Side of the cube as a share of the scene's diagonal"},
-      {&S::step, "step", {1, 256}, "voxels", "The cube moves by multiples of this; where it moves, it is emptied"}};
+      {&S::step,
+       "step",
+       {1, 256},
+       "voxels",
+       "The cube moves by multiples of this; where it moves, it is emptied"}};
   return kTable;
 }
 
@@ -17,7 +21,11 @@ const SettingsTable<LightMapSettings>& LightMapSettings::table() {
   using S = LightMapSettings;
   static const SettingsTable<S> kTable = {
       {&S::use, "use", "What the light's depth image is for", "Gaitatzes 2012, section 7.4"},
-      {&S::resolution, "resolution", {16, 8192}, "px", "Of the depth image from the light's middle, each side"},
+      {&S::resolution,
+       "resolution",
+       {16, 8192},
+       "px",
+       "Of the depth image from the light's middle, each side"},
       {&S::strength, "strength", {0.0, 10.0}, "", "Radiance of a white surface that faces the light"}};
   return kTable;
 }
@@ -36,14 +44,19 @@ const SettingsTable<SequenceSettings>& SequenceSettings::table() {
        "light_turn",
        {-180.0, 180.0},
        "deg",
-       "Angle by which the light turns about the scene's middle in each of them; at their end it is in its place"}};
+       "Angle by which the light turns about the scene's middle in each of them; at their end it is in its "
+       "place"}};
   return kTable;
 }
 
 const SettingsTable<IncrementalSettings>& IncrementalSettings::table() {
   using S = IncrementalSettings;
   static const SettingsTable<S> kTable = {
-      {&S::resolution, "resolution", {1, 512}, "voxels", "Of the longest side of the grid",
+      {&S::resolution,
+       "resolution",
+       {1, 512},
+       "voxels",
+       "Of the longest side of the grid",
        "Gaitatzes 2012, Table 8"},
       {&S::box, "box", "What the grid's box encloses"},
       {&S::lightMap, "light_map", "Depth image from the middle of the scene's first light"},
@@ -55,10 +68,12 @@ voxels::VoxelGrid gridFor(const scene::Scene& scene, const scene::Camera& camera
                           int resolution) {
   const auto* around = std::get_if<CubeAroundCamera>(&box);
   if (!around)
-    return voxels::tightGrid(std::holds_alternative<IncrementalBoxOfCasters>(box) ? scene.casterBounds() : scene.bounds(),
-                             resolution);
+    return voxels::tightGrid(
+        std::holds_alternative<IncrementalBoxOfCasters>(box) ? scene.casterBounds() : scene.bounds(),
+        resolution);
   voxels::VoxelGrid grid;
-  const double diagonal = scene.bounds().diagonal(), side = around->extent * (diagonal > 0.0 ? diagonal : 1.0);
+  const double diagonal = scene.bounds().diagonal(),
+               side = around->extent * (diagonal > 0.0 ? diagonal : 1.0);
   grid.resolution = glm::ivec3(resolution);
   grid.voxelSize = side / resolution;
   // Relative to the scene, not to the world's origin, which may be far away.

@@ -40,7 +40,8 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   const scene::Camera first =
       scene.camera.at(frame.timeS() - settings_.sequence.frames * settings_.sequence.stepS);
   const voxels::VoxelGrid grid = gridFor(scene, first, settings_.box, settings_.resolution);
-  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used, used * samplesPerView());
+  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used,
+                  used * samplesPerView());
   if (views == 2) {
     lightMap_.emplace(context, settings_.lightMap.resolution, frame::Raster::Auto);
     frame.passes().setBytesHeld(kLightMapPass, lightMap_->bytes());
@@ -48,9 +49,9 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   lighting_.strength = settings_.lightMap.strength;
   lighting_.brightest = 0.0;
   for (const scene::Material& material : scene.materials)
-    lighting_.brightest = std::max(lighting_.brightest,
-                                   double(largestOf(material.emission)) +
-                                       lighting_.strength * double(largestOf(material.albedo)));
+    lighting_.brightest =
+        std::max(lighting_.brightest, double(largestOf(material.emission)) +
+                                          lighting_.strength * double(largestOf(material.albedo)));
   views_.resize(static_cast<size_t>(views));
   picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
   gl::ShaderDefines shown;
@@ -69,8 +70,7 @@ void IncrementalTechnique::renderSequence(frame::Frame& frame) {
     frame.setTime(now - before * settings_.sequence.stepS);
     frame.begin();
     if (turns) {
-      const scene::Scene turned =
-          withTurnedLight(frame.scene(), -before * settings_.sequence.lightTurnDeg);
+      const scene::Scene turned = withTurnedLight(frame.scene(), -before * settings_.sequence.lightTurnDeg);
       frame::Frame other(frame, "sequence", turned);
       other.begin();
       step(other);
@@ -84,7 +84,8 @@ void IncrementalTechnique::renderSequence(frame::Frame& frame) {
 
 IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
   if (std::holds_alternative<CubeAroundCamera>(settings_.box)) {
-    const voxels::VoxelGrid grid = gridFor(frame.scene(), frame.camera(), settings_.box, settings_.resolution);
+    const voxels::VoxelGrid grid =
+        gridFor(frame.scene(), frame.camera(), settings_.box, settings_.resolution);
     if (grid.origin != volume_->grid().origin) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
       volume_->moveTo(grid.origin);

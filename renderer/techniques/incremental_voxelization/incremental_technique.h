@@ -13,8 +13,8 @@
 
 namespace limen::techniques {
 
-/// Base of techniques that voxelize what depth images show, frame after frame. Each rendered frame is one step;
-/// prepare() renders those of the sequence. The product is a picture of the voxels, as techniques of
+/// Base of techniques that voxelize what depth images show, frame after frame. Each rendered frame is one
+/// step; prepare() renders those of the sequence. The product is a picture of the voxels, as techniques of
 /// voxelization/ make it. Voxels are compared with sets of the mesh as it stands at the frame's time.
 class IncrementalTechnique : public Technique {
  public:
@@ -47,7 +47,8 @@ class IncrementalTechnique : public Technique {
   virtual int64_t samplesPerView() const = 0;
   /// Compiles and allocates; `views` are bound, `used` of them tell of voxels. Returns the bytes that it
   /// holds besides the volume.
-  virtual int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) = 0;
+  virtual int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                              int used) = 0;
   /// Brings the volume from the last frame to this one. Opens passes.
   virtual void update(const Step& step) = 0;
   /// Renders the product of a step; by default a picture of the voxels.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light reflected once between surfaces, by rays through voxels that are kept from frame to frame or are those of
-// one frame (IV-10, BL-07). Source: Gaitatzes 2012, sections 7.5 and 7.7, which marches rays or propagates light
-// in such a volume; rays tell what the voxels are worth with nothing else in between. For the same picture with
-// light propagated, see global_illumination/.
+// Light reflected once between surfaces, by rays through voxels that are kept from frame to frame or are
+// those of one frame (IV-10, BL-07). Source: Gaitatzes 2012, sections 7.5 and 7.7, which marches rays or
+// propagates light in such a volume; rays tell what the voxels are worth with nothing else in between. For
+// the same picture with light propagated, see global_illumination/.
 #include <epoxy/gl.h>
 
 #include <optional>
@@ -40,7 +40,11 @@ struct MarchedLightSettings {
         included(&S::common),
         {&S::voxels, "voxels", "Which voxels light is taken from"},
         {&S::points, "points", "Points at which depth images are sampled"},
-        {&S::directions, "directions", {8, 1024}, "", "Directions over the whole sphere; half of them are a pixel's rays"},
+        {&S::directions,
+         "directions",
+         {8, 1024},
+         "",
+         "Directions over the whole sphere; half of them are a pixel's rays"},
         {&S::start,
          "start",
          {0.0, 4.0},
@@ -58,7 +62,8 @@ class MarchedLight : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) override {
+  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                      int used) override {
     if (const auto* kept = std::get_if<KeptVoxels>(&settings_.voxels))
       cleanUp_.emplace(frame.context(), kept->cleanUp, volume, views, used);
     else
@@ -104,7 +109,8 @@ class MarchedLight : public IncrementalTechnique {
 const RegisteredTechnique<MarchedLight> kMarchedLightRegistered{
     {.name = "incremental_voxelization/marched_light",
      .version = 2,
-     .summary = "Light reflected once, by rays through voxels kept from frame to frame or through one frame's",
+     .summary =
+         "Light reflected once, by rays through voxels kept from frame to frame or through one frame's",
      .source = "Gaitatzes 2012, sections 7.5 and 7.7 (IV-10)",
      .product = ProductKind::Colour,
      .followsMotion = true,

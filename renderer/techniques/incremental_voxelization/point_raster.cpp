@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thesis's own form: volumes in one or four textures, used in turn, cleaned up voxel by voxel for one depth
-// image after another; points of the images drawn into a volume of their own, those of the light added up and
-// those of the camera in their place, which then replaces what is in the volume (IV-01, IV-04, IV-05, IV-09).
-// Source: Gaitatzes 2012, sections 7.4 to 7.6. Departures: the clean-up is a compute pass over voxels instead of
-// a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands for.
+// The thesis's own form: volumes in one or four textures, used in turn, cleaned up voxel by voxel for one
+// depth image after another; points of the images drawn into a volume of their own, those of the light added
+// up and those of the camera in their place, which then replaces what is in the volume (IV-01, IV-04, IV-05,
+// IV-09). Source: Gaitatzes 2012, sections 7.4 to 7.6. Departures: the clean-up is a compute pass over voxels
+// instead of a fragment pass; the sign of the depth; a sample of the light counts by the area that it stands
+// for.
 #include <epoxy/gl.h>
 
 #include <array>
@@ -50,7 +51,8 @@ class PointRaster : public IncrementalTechnique {
  public:
   using Settings = PointRasterSettings;
   explicit PointRaster(const Settings& settings)
-      : IncrementalTechnique(settings.common, {.volume = false, .lit = settings.targets == 4}), settings_(settings) {}
+      : IncrementalTechnique(settings.common, {.volume = false, .lit = settings.targets == 4}),
+        settings_(settings) {}
   ~PointRaster() override {
     if (vertexArray_) glDeleteVertexArrays(1, &vertexArray_);
   }
@@ -60,17 +62,20 @@ class PointRaster : public IncrementalTechnique {
     std::map<std::string, const gl::Texture*> out;
     if (settings_.layout != VoxelLayout::Atlas || !volumes_[latest_]) return out;
     constexpr std::array kNames = {"normal", "harmonics_red", "harmonics_green", "harmonics_blue"};
-    for (int i = 0; i < settings_.targets; ++i) out[kNames[static_cast<size_t>(i)]] = &volumes_[latest_]->target(i);
+    for (int i = 0; i < settings_.targets; ++i)
+      out[kNames[static_cast<size_t>(i)]] = &volumes_[latest_]->target(i);
     return out;
   }
 
  protected:
   int64_t samplesPerView() const override { return 1; }
   bool countsSteps() const override { return false; }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) override {
+  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                      int used) override {
     used_ = used;
     const glm::ivec3 size = volume.grid().resolution;
-    const gl::Format format = settings_.format == RasterFormat::Full ? gl::Format::RGBA32F : gl::Format::RGBA16F;
+    const gl::Format format =
+        settings_.format == RasterFormat::Full ? gl::Format::RGBA32F : gl::Format::RGBA16F;
     for (auto& each : volumes_) each.emplace(size, settings_.layout, settings_.targets, format);
     injected_.emplace(size, settings_.layout, settings_.targets, format);
     gl::ShaderDefines defines = voxels::disproofDefines(settings_.cleanUp, volume, views, used);
@@ -128,7 +133,8 @@ class PointRaster : public IncrementalTechnique {
       const glm::ivec2 sizePx = step.views[static_cast<size_t>(view)].sizePx;
       std::optional<SeenBuffers>& buffers = buffers_[static_cast<size_t>(view)];
       if (!buffers)
-        buffers.emplace(SeenBuffers{gl::Texture(gl::Format::RGBA16F, sizePx), gl::Texture(gl::Format::RGBA32F, sizePx)});
+        buffers.emplace(
+            SeenBuffers{gl::Texture(gl::Format::RGBA16F, sizePx), gl::Texture(gl::Format::RGBA32F, sizePx)});
       step.volume.configure(*seen_);
       voxels::configureViews(*seen_, step.views, step.volume.grid(), step.frame.gpuScene().anchor());
       voxels::configureSampleLights(*seen_, step.frame, step.lighting);
@@ -141,9 +147,11 @@ class PointRaster : public IncrementalTechnique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 
-  void copy(const gl::Program& program, const Step& step, const VoxelTextures& from, const VoxelTextures& to, int view) const {
+  void copy(const gl::Program& program, const Step& step, const VoxelTextures& from, const VoxelTextures& to,
+            int view) const {
     step.volume.configure(program);
-    voxels::configureDisproof(program, settings_.cleanUp, step.views, step.volume.grid(), step.frame.gpuScene().anchor());
+    voxels::configureDisproof(program, settings_.cleanUp, step.views, step.volume.grid(),
+                              step.frame.gpuScene().anchor());
     from.configure(program);
     from.bindSources();
     to.bindTargets();
@@ -151,8 +159,10 @@ class PointRaster : public IncrementalTechnique {
     program.use();
     const glm::ivec3 size = step.volume.grid().resolution;
     glDispatchCompute(static_cast<GLuint>((size.x + kGroupSide - 1) / kGroupSide),
-                      static_cast<GLuint>((size.y + kGroupSide - 1) / kGroupSide), static_cast<GLuint>(size.z));
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+                      static_cast<GLuint>((size.y + kGroupSide - 1) / kGroupSide),
+                      static_cast<GLuint>(size.z));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
   void drawPoints(const Step& step, int view) const {
@@ -185,7 +195,8 @@ class PointRaster : public IncrementalTechnique {
     step.volume.occupancy().bits().bindImage(kPackedBitsImage, gl::Access::Write);
     pack_->use();
     const glm::ivec3 words(step.volume.occupancy().bits().sizePx(), step.volume.grid().resolution.z);
-    glDispatchCompute(static_cast<GLuint>(words.x), static_cast<GLuint>((words.y + 63) / 64), static_cast<GLuint>(words.z));
+    glDispatchCompute(static_cast<GLuint>(words.x), static_cast<GLuint>((words.y + 63) / 64),
+                      static_cast<GLuint>(words.z));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
@@ -194,7 +205,8 @@ class PointRaster : public IncrementalTechnique {
   size_t latest_ = 0;
   std::optional<VoxelTextures> injected_;
   std::array<std::optional<SeenBuffers>, voxels::kMostDepthViews> buffers_;
-  const gl::Program *keep_ = nullptr, *replace_ = nullptr, *pack_ = nullptr, *seen_ = nullptr, *draw_ = nullptr;
+  const gl::Program *keep_ = nullptr, *replace_ = nullptr, *pack_ = nullptr, *seen_ = nullptr,
+                    *draw_ = nullptr;
   GLuint vertexArray_ = 0;
   int used_ = 1;
 };

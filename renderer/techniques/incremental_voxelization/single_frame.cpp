@@ -17,7 +17,8 @@ struct SingleFrameSettings {
     using S = SingleFrameSettings;
     static const SettingsTable<S> kTable = {
         included(&S::common),
-        {&S::attributes, "attributes", "Normal, reflectance and light of each voxel besides occupancy"}, {&S::points, "points", "Points at which depth images are sampled"}};
+        {&S::attributes, "attributes", "Normal, reflectance and light of each voxel besides occupancy"},
+        {&S::points, "points", "Points at which depth images are sampled"}};
     return kTable;
   }
 };
@@ -25,11 +26,14 @@ struct SingleFrameSettings {
 class SingleFrame : public IncrementalTechnique {
  public:
   using Settings = SingleFrameSettings;
-  explicit SingleFrame(const Settings& settings) : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}), settings_(settings) {}
+  explicit SingleFrame(const Settings& settings)
+      : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}),
+        settings_(settings) {}
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) override {
+  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                      int used) override {
     forget_.emplace(frame.context(), volume);
     injection_.emplace(frame.context(), settings_.points, volume, views, used);
     return 0;

@@ -35,7 +35,8 @@ class SinglePassTechnique : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return 1; }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) override {
+  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                      int used) override {
     pass_.emplace(frame.context(), cleanUp_, volume, views, used);
     return 0;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voxels kept from frame to frame: those that a depth image disproves are emptied, then points of the images
 // fill the voxels that they lie in (IV-01 to IV-07, IV-11, IV-12). Source: Gaitatzes 2012, section 7.4, whose
-// formula for the depth has the wrong sign. Departures: in place, by compute shaders that visit occupied voxels
-// alone; a voxel that its middle's pixel disproves stays if another pixel sees a surface in it, which else would be
-// emptied and filled again in every frame; points move within their cells; attributes are
-// means over a voxel's samples, light is stored as radiance instead of as harmonics, which follow from it and
-// the normal; the light's samples count as their mean, not as a sum of fluxes, which would depend on the map.
+// formula for the depth has the wrong sign. Departures: in place, by compute shaders that visit occupied
+// voxels alone; a voxel that its middle's pixel disproves stays if another pixel sees a surface in it, which
+// else would be emptied and filled again in every frame; points move within their cells; attributes are means
+// over a voxel's samples, light is stored as radiance instead of as harmonics, which follow from it and the
+// normal; the light's samples count as their mean, not as a sum of fluxes, which would depend on the map.
 #include <optional>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
@@ -45,11 +45,14 @@ struct TwoStageSettings {
 class TwoStage : public IncrementalTechnique {
  public:
   using Settings = TwoStageSettings;
-  explicit TwoStage(const Settings& settings) : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}), settings_(settings) {}
+  explicit TwoStage(const Settings& settings)
+      : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}),
+        settings_(settings) {}
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views, int used) override {
+  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+                      int used) override {
     cleanUp_.emplace(frame.context(), settings_.cleanUp, volume, views, used);
     injection_.emplace(frame.context(), settings_.points, volume, views, used);
     if (settings_.region == CleanUpRegion::Moving) bricks_.emplace(frame.scene(), volume.grid());
@@ -84,7 +87,8 @@ class TwoStage : public IncrementalTechnique {
 const RegisteredTechnique<TwoStage> kTwoStageRegistered{
     {.name = "incremental_voxelization/two_stage",
      .version = 1,
-     .summary = "Voxels kept from frame to frame: what depth images disprove is emptied, what they show is filled",
+     .summary =
+         "Voxels kept from frame to frame: what depth images disprove is emptied, what they show is filled",
      .source = "Gaitatzes 2012, section 7.4 (IV-02 to IV-07)",
      .product = ProductKind::Colour,
      .followsMotion = true,

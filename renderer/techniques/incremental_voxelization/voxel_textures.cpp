@@ -32,7 +32,8 @@ gl::Framebuffer framebufferOf(const std::vector<gl::Texture>& targets) {
 VoxelTextures::VoxelTextures(glm::ivec3 size, VoxelLayout layout, int targets, gl::Format format)
     : VoxelTextures(layout == VoxelLayout::Layers
                         ? glm::ivec2(size)
-                        : glm::ivec2(size) * glm::ivec2(columnsOf(size), (size.z + columnsOf(size) - 1) / columnsOf(size)),
+                        : glm::ivec2(size) *
+                              glm::ivec2(columnsOf(size), (size.z + columnsOf(size) - 1) / columnsOf(size)),
                     layout == VoxelLayout::Layers ? size.z : 0, columnsOf(size), targets, format) {}
 
 VoxelTextures::VoxelTextures(glm::ivec2 sizePx, int layers, int columns, int targets, gl::Format format)
@@ -53,7 +54,8 @@ int64_t VoxelTextures::bytes() const {
 }
 
 void VoxelTextures::bindSources() const {
-  for (size_t i = 0; i < targets_.size(); ++i) targets_[i].bindTexture(kVoxelSourceUnit + static_cast<uint32_t>(i));
+  for (size_t i = 0; i < targets_.size(); ++i)
+    targets_[i].bindTexture(kVoxelSourceUnit + static_cast<uint32_t>(i));
 }
 
 void VoxelTextures::bindTargets() const {
