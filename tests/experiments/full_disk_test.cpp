@@ -24,13 +24,13 @@ TEST(FullDisk, ARunWhosePicturesCannotBeWrittenFails) {
       << "title: full disk\nquestion: what happens to its runs?\n"
          "scenes: [{name: sphere_grid}]\ntechniques: [{name: soft_shadows/hard}]\n"
          "reference: {name: soft_shadows/ray_traced, samples: 16}\n"
-         "image: {width: 1600, height: 1200}\n"
+         "image: {width: 2200, height: 1650}\n"
          "timing: {warmup: 0, frames: 1, rounds: 1}\n"
          "artefacts: {pictures: true, exr: false}\nmetrics: [rmse]\n"
          "report: {x: gpu_ms, y: rmse, series: technique, panels: scene}\n";
   const std::string store = folder + "/results/s.sqlite";
   const std::string call = "limen-sweep " + folder + "/d.yaml --no-report --store " + store;
-  const ProgramRun full = runProgram(call, fullDiskAfter(600));
+  const ProgramRun full = runProgram(call, fullDiskAfter(1000));
   EXPECT_EQ(full.code, 1) << full.text;
   EXPECT_THAT(full.text, HasSubstr("reference.png: cannot be written: File too large"));
   {

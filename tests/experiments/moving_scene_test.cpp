@@ -55,8 +55,9 @@ TEST(MovingScene, EveryTechniqueRefusesItOrShowsTheMovedState) {
       const double change = meanDifference(expected, old);
       EXPECT_GT(change, 0.0) << name;
       // Of pixels at edges, by rounding; points are those of a tree that is built of parts at rest, and
-      // other ones stand for parts that moved.
-      const double most = name == "many_lods/points" ? 0.5 : 0.05;
+      // other ones stand for parts that moved. What a scene needs is another technique, with errors of its
+      // own, where parts move.
+      const double most = name == "many_lods/points" || name == "reflections/scene_needs" ? 0.5 : 0.05;
       EXPECT_LT(meanDifference(found, expected), most * change) << name;
       shown.insert(name);
     } catch (const Error&) {
@@ -65,10 +66,10 @@ TEST(MovingScene, EveryTechniqueRefusesItOrShowsTheMovedState) {
   }
   for (const char* name :
        {"reflections/ray_hierarchy", "reflections/vertex_reflection", "reflections/environment_map",
-        "reflections/screen_space", "reflections/reference"})
+        "reflections/screen_space", "reflections/planar_mirror", "reflections/reference"})
     EXPECT_TRUE(shown.count(name)) << name;
-  // What keeps a tree, shadow maps or planes, and what knows nothing of motion.
-  for (const char* name : {"reflections/ray_traced", "reflections/planar_mirror", "soft_shadows/hard"})
+  // What keeps a tree or shadow maps, and what knows nothing of motion.
+  for (const char* name : {"reflections/ray_traced", "soft_shadows/hard"})
     EXPECT_TRUE(refused.count(name)) << name;
 }
 

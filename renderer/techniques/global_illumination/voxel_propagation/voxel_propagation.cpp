@@ -55,18 +55,28 @@ constexpr EnumNames<GatherForm, 3> enumNames(GatherForm) {
             {GatherForm::Reflected, "reflected"}}}};
 }
 
+struct ReconstructionSettings {
+  GatherForm from = GatherForm::Faces;
+  GatherWeights weights = GatherWeights::Visible;
+  static const SettingsTable<ReconstructionSettings>& table() {
+    using S = ReconstructionSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::from, "from", "What a pixel's light is computed from", "Gaitatzes 2012, section 5.5.3"},
+        {&S::weights, "weights", "Which voxels a pixel's light is interpolated between",
+         "Gaitatzes 2012, section 5.5.3 (occupied)"}};
+    return kTable;
+  }
+};
+
 struct VoxelPropagationSettings {
   LightGridSettings grid;
-  GatherForm gather = GatherForm::Faces;
-  GatherWeights interpolation = GatherWeights::Visible;
+  ReconstructionSettings reconstruction;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<VoxelPropagationSettings>& table() {
     using S = VoxelPropagationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::grid),
-        {&S::gather, "gather", "What a pixel's light is computed from", "Gaitatzes 2012, section 5.5.3"},
-        {&S::interpolation, "interpolation", "Which voxels a pixel's light is interpolated between",
-         "Gaitatzes 2012, section 5.5.3 (occupied)"},
+        {&S::reconstruction, "reconstruction", "How pixels get light from voxels"},
         included(&S::surfaces)};
     return kTable;
   }
@@ -81,8 +91,8 @@ class VoxelPropagation : public Technique {
     light_.emplace(frame, settings_.grid, settings_.surfaces);
     gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
     defines.merge(light_->volume().defines());
-    defineEnum(defines, "GATHER", settings_.gather);
-    defineEnum(defines, "INTERPOLATION", settings_.interpolation);
+    defineEnum(defines, "GATHER", settings_.reconstruction.from);
+    defineEnum(defines, "INTERPOLATION", settings_.reconstruction.weights);
     reconstruct_ = &frame.context().programs().compute(
         "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl", defines);
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
