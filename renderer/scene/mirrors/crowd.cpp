@@ -25,7 +25,7 @@ struct MirrorCrowdSettings {
          "segments",
          "Segments in a quarter circle; 25: 5,000 triangles an object, two million of 400",
          "Holländer 2013, section 3.6.3 (2 M triangles)"},
-        {&S::glassOf, "glass_every", {0, 1000}, "", "Every so many objects, one is of glass; 0: none"},
+        {&S::glassOf, "glass_every", {0, 16}, "", "Every so many objects, one is of glass; 0: none"},
         {&S::reflectance,
          "reflectance",
          {0.0, 1.0},
@@ -59,7 +59,7 @@ Scene buildMirrorCrowd(const MirrorCrowdSettings& settings) {
   }
   scene.lights = {
       lightTowards({-0.5 * half, 1.2 * height, 2.0 * half}, {0.0, half, 0.0}, glm::dvec2(0.1 * half))};
-  setStillCamera(scene, {{0.0, 1.1 * half, 4.2 * half}, {0.0, half, 0.0}, {0.0, 1.0, 0.0}, 40.0});
+  setStillCamera(scene, {{0.0, 1.1 * half, 3.5 * half}, {0.0, half, 0.0}, {0.0, 1.0, 0.0}, 40.0});
   return scene;
 }
 
