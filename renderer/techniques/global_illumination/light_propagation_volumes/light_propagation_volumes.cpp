@@ -21,10 +21,19 @@ constexpr const char *kFreeInjectPass = "global_illumination/inject",
                      *kFreePropagatePass = "global_illumination/propagate",
                      *kFreeReconstructPass = "global_illumination/reconstruct";
 
+enum class VolumeLookup {
+  Intensity,  ///< the intensity against the normal, half a voxel away (Kaplanyan and Dachsbacher 2010)
+  Cosine      ///< the intensity's product with the clamped cosine, exact for light along the normal
+};
+constexpr EnumNames<VolumeLookup, 2> enumNames(VolumeLookup) {
+  return {{{{VolumeLookup::Intensity, "intensity"}, {VolumeLookup::Cosine, "cosine"}}}};
+}
+
 struct PropagationVolumeSettings {
   int resolution = 32, iterations = 16, rays = 16384;
   double shift = 0.5;
   bool blockers = false;
+  VolumeLookup lookup = VolumeLookup::Intensity;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<PropagationVolumeSettings>& table() {
     using S = PropagationVolumeSettings;
@@ -50,6 +59,7 @@ struct PropagationVolumeSettings {
          "From surfaces, where light starts and is looked up",
          kPaper},
         {&S::blockers, "blockers", "Surfaces in a voxel block light by their normals", kPaper},
+        {&S::lookup, "lookup", "How pixels get light from voxels", kPaper},
         included(&S::surfaces)};
     return kTable;
   }
@@ -71,8 +81,9 @@ class LightPropagationVolumes : public Technique {
     gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
     defines.merge(volume_->defines());
     inject_ = &programs.compute(folder + "light_propagation_volumes/reflective_rays.comp.glsl", defines);
-    reconstruct_ =
-        &programs.compute(folder + "light_propagation_volumes/reconstruct_free.comp.glsl", defines);
+    gl::ShaderDefines lookup = defines;
+    defineEnum(lookup, "LOOKUP", settings_.lookup);
+    reconstruct_ = &programs.compute(folder + "light_propagation_volumes/reconstruct_free.comp.glsl", lookup);
     defines = volume_->defines();
     defines["FIELD_FORMAT"] = "rgba16f";
     seed_ = &programs.compute(folder + "voxel_propagation/seed.comp.glsl", defines);

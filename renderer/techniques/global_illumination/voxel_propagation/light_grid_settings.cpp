@@ -67,7 +67,7 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
        "resolution",
        {4, 128},
        "voxels",
-       "Along the longest side of the box",
+       "Along the longest side of the box; light needs some four steps a voxel for its bounces",
        "Gaitatzes 2012, section 5.6 (32)"},
       {&S::iterations,
        "iterations",
