@@ -109,14 +109,16 @@ void requireEgl() {
 /// Where a device is named.
 constexpr const char* kWhere = "--device or LIMEN_EGL_DEVICE";
 
-/// Devices of EGL; none where it cannot enumerate them.
+/// Devices of EGL; none where it cannot enumerate them. EGL_EXT_device_base is the older extension that
+/// EGL_EXT_device_enumeration and EGL_EXT_device_query were split from; NVIDIA's driver names it alone.
 std::vector<EGLDeviceEXT> eglDevices() {
   requireEgl();
   std::vector<EGLDeviceEXT> devices(32);
   EGLint count = 0;
   if ((epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
        epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) &&
-      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+      (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
+       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")))
     eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
   devices.resize(static_cast<size_t>(count));
   return devices;
