@@ -20,6 +20,7 @@ class SweepOnGpus : public SweepCli {
   void SetUp() override {
     SweepCli::SetUp();
     setenv("FAKE_GPUS", "3", 1);
+    unsetenv("FAKE_GIVEN");
   }
 
   static std::string descriptor(int sleepMs, const std::string& more = "") {
