@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -88,6 +89,8 @@ class Executor {
 struct SweepDevice {
   std::string name;       ///< as stores name it; "": it cannot be used
   bool software = false;  ///< a CPU renders
+  /// In a job of Slurm: whether it was given to the job, empty if that cannot be told; elsewhere true.
+  std::optional<bool> assigned = true;
 };
 
 }  // namespace limen::experiments

@@ -23,8 +23,13 @@ std::vector<int> chooseDevices(const SweepProgram& program, const std::string& w
   const std::vector<SweepDevice> devices = program.devices ? program.devices() : std::vector<SweepDevice>{};
   std::vector<int> out;
   if (which == "all") {
-    for (size_t i = 0; i < devices.size(); ++i)
-      if (!devices[i].name.empty() && !devices[i].software) out.push_back(static_cast<int>(i));
+    for (size_t i = 0; i < devices.size(); ++i) {
+      if (devices[i].name.empty() || devices[i].software) continue;
+      if (!devices[i].assigned)
+        throw Error("which of the GPUs here Slurm gave this job cannot be told", "--gpus",
+                    "name them: --gpus 0,2; limen sweep --list devices shows what is there");
+      if (*devices[i].assigned) out.push_back(static_cast<int>(i));
+    }
     if (out.empty())
       throw Error("there is no GPU", "--gpus", "limen sweep --list devices shows what is there");
     return out;

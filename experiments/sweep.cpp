@@ -72,8 +72,9 @@ class Sweeper {
           program_.devices ? program_.devices() : std::vector<SweepDevice>{};
       for (size_t i = 0; i < devices.size(); ++i) {
         const std::string line =
-            fmt::format("{}  {}{}", i, devices[i].name.empty() ? "(no OpenGL 4.5)" : devices[i].name,
-                        devices[i].software ? ", software renderer" : "");
+            fmt::format("{}  {}{}{}", i, devices[i].name.empty() ? "(no OpenGL 4.5)" : devices[i].name,
+                        devices[i].software ? ", software renderer" : "",
+                        devices[i].assigned.value_or(true) ? "" : ", not given to this job by Slurm");
         if (options_.json)
           output_.printJson({{"device", line}});
         else

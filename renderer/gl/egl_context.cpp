@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -13,6 +12,7 @@
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
 #include "renderer/gl/devices.h"
+#include "renderer/gl/egl_devices.h"
 
 namespace limen::gl {
 namespace {
@@ -97,36 +97,20 @@ std::unique_ptr<Context> tryDisplay(EGLDisplay display, const std::string& platf
   }
 }
 
-/// libepoxy ends the process where it finds no library.
-void requireEgl() {
-  static void* const library = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr)
-    throw Error("libEGL.so.1 cannot be loaded", {},
-                "install a GPU driver with EGL, or the packages libegl1 and libgl1-mesa-dri for a software "
-                "renderer");
-}
-
 /// Where a device is named.
 constexpr const char* kWhere = "--device or LIMEN_EGL_DEVICE";
-
-/// Devices of EGL; none where it cannot enumerate them. EGL_EXT_device_base is the older extension that
-/// EGL_EXT_device_enumeration and EGL_EXT_device_query were split from; NVIDIA's driver names it alone.
-std::vector<EGLDeviceEXT> eglDevices() {
-  requireEgl();
-  std::vector<EGLDeviceEXT> devices(32);
-  EGLint count = 0;
-  if ((epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
-       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) &&
-      (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
-       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")))
-    eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
-  devices.resize(static_cast<size_t>(count));
-  return devices;
-}
 
 std::unique_ptr<Context> tryDevice(const std::vector<EGLDeviceEXT>& devices, size_t index) {
   return tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[index], nullptr),
                     "EGL device " + std::to_string(index));
+}
+
+/// Which of them Slurm lets this process use.
+std::vector<bool> allowedDevices(const std::vector<EGLDeviceEXT>& devices) {
+  const std::optional<Assignment> assignment =
+      readAssignment([](const char* name) -> const char* { return std::getenv(name); });
+  if (!assignment) return std::vector<bool>(devices.size(), true);
+  return assignedDevices(identitiesOf(devices), *assignment);
 }
 
 std::string lower(std::string text) {
@@ -169,6 +153,8 @@ std::vector<DeviceInfo> listHeadlessDevices() {
   return out;
 }
 
+std::vector<bool> assignedHeadlessDevices() { return allowedDevices(eglDevices()); }
+
 std::unique_ptr<Context> createHeadlessContext() {
   // Several threads may create contexts at the same time; the report is about the latest one.
   static std::mutex guard;
@@ -176,9 +162,12 @@ std::unique_ptr<Context> createHeadlessContext() {
   candidateLines().clear();
   const Wish wish = readWish();
   const std::vector<EGLDeviceEXT> devices = eglDevices();
+  // Whoever gives an index means that device.
+  const std::vector<bool> allowed =
+      wish.index ? std::vector<bool>(devices.size(), true) : allowedDevices(devices);
   std::unique_ptr<Context> best;
   for (size_t i = 0; i < devices.size(); ++i) {
-    if (!wish.allows(i)) continue;
+    if (!wish.allows(i) || !allowed[i]) continue;
     auto context = tryDevice(devices, i);
     if (context && wish.allows(context->device()) &&
         (!best || (best->device().software && !context->device().software)))

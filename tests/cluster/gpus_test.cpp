@@ -20,6 +20,7 @@ class SweepOnGpus : public SweepCli {
   void SetUp() override {
     SweepCli::SetUp();
     setenv("FAKE_GPUS", "3", 1);
+    unsetenv("FAKE_GIVEN");
   }
 
   static std::string descriptor(int sleepMs, const std::string& more = "") {
@@ -29,6 +30,18 @@ class SweepOnGpus : public SweepCli {
            std::to_string(sleepMs) + "}\n" + more +
            "reference: {name: soft/sampled, samples: 256}\nmetrics: [rmse]\nexpect: [{metric: rmse, below: "
            "2}]\n";
+  }
+
+  /// Waits until a task says that it has finished a run; false if that takes more than 20 s.
+  bool someRunIsDone() const {
+    for (int i = 0; i < 400; ++i) {
+      for (int task = 1; task <= 3; ++task) {
+        const std::string name = "results/d_tasks/1/task_" + std::to_string(task) + ".progress";
+        if (std::regex_search(read(name), std::regex("\"done\": ?[1-9]"))) return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
   }
 
   std::vector<store::Run> runs(const std::string& name) const {
@@ -55,6 +68,21 @@ TEST_F(SweepOnGpus, TheStoreIsThatOfOneGpuAndTheSweepEndsAsUsual) {
               AllOf(HasSubstr("0 measured, 24 done before")));
 }
 
+TEST_F(SweepOnGpus, InAJobOfSlurmAllAreThoseThatItWasGiven) {
+  write("d.yaml", descriptor(0));
+  setenv("FAKE_GIVEN", "2", 1);
+  EXPECT_THAT(call({"--list", "devices"}).out,
+              AllOf(HasSubstr("1  fake GPU, not given to this job"), HasSubstr("2  fake GPU\n")));
+  const CallResult one = call({"d.yaml", "--gpus", "all", "--no-report"});
+  EXPECT_EQ(one.exitCode, 0) << one.err;
+  EXPECT_THAT(one.out, HasSubstr("on 1 GPU;"));
+  setenv("FAKE_GIVEN", "?", 1);
+  const CallResult unknown = call({"d.yaml", "--gpus", "all", "--no-report"});
+  EXPECT_EQ(unknown.exitCode, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("cannot be told"), HasSubstr("--gpus 0,2")));
+  EXPECT_EQ(call({"d.yaml", "--gpus", "1,3", "--no-report"}).exitCode, 0) << "whoever names them knows";
+}
+
 TEST_F(SweepOnGpus, GpusWorkAtTheSameTime) {
   write("d.yaml", descriptor(100));
   const auto begin = std::chrono::steady_clock::now();
@@ -74,7 +102,7 @@ TEST_F(SweepOnGpus, ARunThatKillsItsProcessFailsAndTheOthersAreMeasured) {
 TEST_F(SweepOnGpus, KilledWithAllItsProcessesItGoesOnWhereItWas) {
   write("d.yaml", descriptor(60));
   const pid_t child = start({"d.yaml", "--gpus", "all", "--no-report"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(450));
+  ASSERT_TRUE(someRunIsDone());
   kill(child, SIGKILL);
   wait(child);
   // Its processes end by themselves.

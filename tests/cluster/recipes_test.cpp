@@ -44,6 +44,32 @@ class Recipes : public SweepCli {
     return out;
   }
 
+  /// The one block of a language that holds these words.
+  static std::string block(const std::string& language, const std::string& words) {
+    std::vector<std::string> found;
+    for (const std::string& text : blocks(language))
+      if (text.find(words) != std::string::npos) found.push_back(text);
+    EXPECT_EQ(found.size(), 1U) << language << " with " << words;
+    return found.empty() ? "" : found[0];
+  }
+
+  /// The first of these programs that ends well with these words; "" if none does.
+  static std::string interpreter(const std::vector<std::string>& names, std::vector<std::string> words) {
+    words.insert(words.begin(), "");
+    for (const std::string& name : names) {
+      words[0] = name;
+      if ((name[0] == '/' || !findProgram(name).empty()) && runAndRead(words).status == 0) return name;
+    }
+    return "";
+  }
+
+  /// A line with the least RMSE of the fake bitmask, 1 over 32 samples, and one of the other technique.
+  static void expectLeastErrors(const ProgramOutput& result) {
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, testing::ContainsRegex("soft/bitmask[^\n]*0\\.03125"));
+    EXPECT_THAT(result.out, HasSubstr("soft/pcss"));
+  }
+
   /// What a query of one value gives, as text.
   std::string ask(const std::string& sql) const {
     sqlite3* database = nullptr;
@@ -138,37 +164,70 @@ TEST_F(Recipes, AnIncompleteSweepIsExportedOnlyIfForcedAndSaysSo) {
   EXPECT_THAT(forced.out, HasSubstr("% Not complete"));
 }
 
-TEST_F(Recipes, PythonRunsAsPrinted) {
-  if (findProgram("python3").empty()) GTEST_SKIP() << "no python3";
-  size_t ran = 0;
-  for (const std::string& block : blocks("python")) {
-    for (const char* library : {"pandas", "duckdb"})
-      if (block.find(std::string("import ") + library) != std::string::npos &&
-          runAndRead({"python3", "-c", std::string("import ") + library}).status != 0)
-        goto next;
-    {
-      const ProgramOutput result = runAndRead({"python3", "-c", block});
-      EXPECT_EQ(result.status, 0) << block << result.err;
-      EXPECT_THAT(result.out, HasSubstr("soft/bitmask"));
-      ++ran;
-    }
-  next:;
-  }
-  EXPECT_GE(ran, 1U) << "the first needs nothing but Python";
+TEST_F(Recipes, ThePageHasNoOthersThanThoseRunHere) {
+  EXPECT_EQ(blocks("python").size(), 2U);
+  EXPECT_EQ(blocks("sql").size(), 2U);
+  EXPECT_EQ(blocks("r").size(), 2U);
 }
 
-TEST_F(Recipes, RRunsAsPrinted) {
-  if (findProgram("Rscript").empty()) GTEST_SKIP() << "no R";
+TEST_F(Recipes, PlainPythonRunsAsPrinted) {
+  const std::string python = interpreter({"python3"}, {"-c", "import sqlite3"});
+  if (python.empty()) GTEST_SKIP() << "left out: no python3";
+  expectLeastErrors(runAndRead({python, "-c", block("python", "sqlite3.Row")}));
+}
+
+TEST_F(Recipes, PandasRunsAsPrinted) {
+  // A python3 that comes first on PATH may not be Debian's, which alone has Debian's pandas.
+  const std::string python = interpreter({"python3", "/usr/bin/python3"}, {"-c", "import pandas"});
+  if (python.empty()) GTEST_SKIP() << "left out: no pandas (Debian: python3-pandas)";
+  expectLeastErrors(runAndRead({python, "-c", block("python", "import pandas")}));
+}
+
+TEST_F(Recipes, RSqliteRunsAsPrinted) {
+  const std::string r = interpreter({"Rscript"}, {"-e", "library(RSQLite)"});
+  if (r.empty()) GTEST_SKIP() << "left out: no RSQLite (Debian: r-cran-rsqlite)";
+  expectLeastErrors(runAndRead({r, "-e", block("r", "RSQLite")}));
+}
+
+TEST_F(Recipes, RRunsAsPrintedOnAnExport) {
+  const std::string r = interpreter({"Rscript"}, {"-e", "0"});
+  if (r.empty()) GTEST_SKIP() << "left out: no R (Debian: r-base-core)";
   ASSERT_EQ(exported({"-o", path("runs.csv")}).status, 0);
   setenv("RUNS", path("runs.csv").c_str(), 1);
-  for (const std::string& block : blocks("r")) {
-    if (block.find("RSQLite") != std::string::npos &&
-        runAndRead({"Rscript", "-e", "library(RSQLite)"}).status != 0)
-      continue;
-    const ProgramOutput result = runAndRead({"Rscript", "-e", block});
-    EXPECT_EQ(result.status, 0) << block << result.err;
-    EXPECT_THAT(result.out, HasSubstr("soft/bitmask"));
-  }
+  expectLeastErrors(runAndRead({r, "-e", block("r", "read.csv")}));
+}
+
+TEST_F(Recipes, DuckDbRunsAsPrintedOnExports) {
+  // Of DuckDB's clients whichever is there; the last two get the query as their last argument.
+  std::vector<std::string> client;
+  if (!findProgram("duckdb").empty()) client = {"duckdb", "-c"};
+  const std::string python = interpreter({"python3", "/usr/bin/python3"}, {"-c", "import duckdb"});
+  if (!python.empty()) client = {python, "-c", "import duckdb, sys; print(duckdb.sql(sys.argv[1]))"};
+  const std::string node = interpreter({"node"}, {"-e", "require('@duckdb/node-api')"});
+  if (!node.empty())
+    client = {node, "-e",
+              "require('@duckdb/node-api').DuckDBInstance.create().then(i => i.connect())"
+              ".then(c => c.runAndReadAll(process.argv[1])).then(r => console.log(r.getRowsJson()))"};
+  if (client.empty())
+    GTEST_SKIP() << "left out: no DuckDB (duckdb, Python's duckdb, or @duckdb/node-api by NODE_PATH)";
+  std::filesystem::current_path(folder_);
+  ASSERT_EQ(exported({"-o", path("runs.csv")}).status, 0);
+  client.push_back(block("sql", "min(rmse)"));
+  expectLeastErrors(runAndRead(client));
+
+  std::string other = validDescriptor();
+  other.replace(other.find("metrics: [rmse, crack_count]"), 28, "metrics: [rmse, largest_error]");
+  write("e.yaml", other);
+  ASSERT_EQ(call({"e.yaml", "--store", "other.sqlite", "--no-report"}).exitCode, 0);
+  ASSERT_EQ(runAndRead(
+                {std::string(LIMEN_BIN_DIR) + "/limen-export", path("other.sqlite"), "-o", path("other.csv")})
+                .status,
+            0);
+  client.back() = block("sql", "union_by_name");
+  const ProgramOutput both = runAndRead(client);
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out,
+              testing::AllOf(HasSubstr("runs.csv"), HasSubstr("other.csv"), HasSubstr("soft/bitmask")));
 }
 
 }  // namespace

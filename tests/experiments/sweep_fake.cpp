@@ -6,7 +6,8 @@
 #include "tests/experiments/fake_bench.h"
 
 // limen-sweep without a GPU. FAKE_DEVICE names the device; FAKE_DEVICE= (empty) stands for a machine without
-// one. FAKE_GPUS=3 stands for a machine with a software renderer and then three GPUs of one kind.
+// one. FAKE_GPUS=3 stands for a machine with a software renderer and then three GPUs of one kind, of which
+// FAKE_GIVEN=2 alone was given to this job of Slurm, and with FAKE_GIVEN=? nobody knows which.
 int main(int argc, char** argv) {
   using namespace limen::experiments;
   const auto devices = []() -> std::vector<SweepDevice> {
@@ -14,6 +15,11 @@ int main(int argc, char** argv) {
     if (!count) return {};
     std::vector<SweepDevice> out = {{"fake renderer", true}};
     out.resize(1 + static_cast<size_t>(std::atoi(count)), {"fake GPU", false});
+    if (const char* const given = std::getenv("FAKE_GIVEN"))
+      for (size_t i = 1; i < out.size(); ++i) {
+        out[i].assigned = std::to_string(i) == given;
+        if (*given == '?') out[i].assigned.reset();
+      }
     return out;
   };
   const auto makeExecutor = [&](const std::string&, const std::string&) -> std::unique_ptr<Executor> {
