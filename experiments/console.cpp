@@ -178,6 +178,7 @@ class Pair : public SweepObserver {
   void waiting(size_t heldByOthers) override {
     first_->waiting(heldByOthers), second_->waiting(heldByOthers);
   }
+  void leftToOther(const PlannedRun& run) override { first_->leftToOther(run), second_->leftToOther(run); }
 
  private:
   std::unique_ptr<SweepObserver> first_, second_;

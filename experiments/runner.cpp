@@ -126,6 +126,34 @@ class Runner {
   }
 
   void measureGroup(const std::vector<size_t>& group) {
+    if (!options_.queue) return measureAll(group);
+    for (size_t begin = 0; begin < group.size() && !stopped();) {
+      throwIfInterrupted();
+      const size_t end =
+          std::min(group.size(), begin + static_cast<size_t>(plan_.runs[group[begin]].timing.batch));
+      measureAll(taken({group.begin() + static_cast<long>(begin), group.begin() + static_cast<long>(end)}));
+      begin = end;
+    }
+  }
+
+  /// Those of a batch that the queue gives to this task.
+  std::vector<size_t> taken(const std::vector<size_t>& batch) {
+    std::vector<std::string> keys;
+    for (const size_t index : batch) keys.push_back(plan_.runs[index].key);
+    const std::vector<bool> mine = options_.queue->take(keys);
+    std::vector<size_t> out;
+    for (size_t i = 0; i < batch.size(); ++i) {
+      if (mine[i]) {
+        out.push_back(batch[i]);
+      } else {
+        --tally_.planned;
+        observer_.leftToOther(plan_.runs[batch[i]]);
+      }
+    }
+    return out;
+  }
+
+  void measureAll(const std::vector<size_t>& group) {
     std::vector<size_t> batch;
     for (size_t position = 0; position < group.size() && !stopped(); ++position) {
       throwIfInterrupted();

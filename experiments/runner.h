@@ -9,6 +9,7 @@
 #include "experiments/descriptor.h"
 #include "experiments/executor.h"
 #include "experiments/plan.h"
+#include "experiments/shared_queue.h"
 #include "experiments/store/store.h"
 
 namespace limen::experiments {
@@ -22,6 +23,7 @@ struct RunnerOptions {
   /// Where to begin, as a share of the plan: tasks that begin at different scenes do not all wait for the
   /// same reference. From there on to the end, then what is before.
   double begin = 0.0;
+  SharedQueue* queue = nullptr;  ///< what is measured is taken from it, batch by batch; null: all
 };
 
 /// Notified of progress while a sweep runs. Counts refer to the shard.
@@ -34,6 +36,8 @@ class SweepObserver {
   /// A run finished by another sweep in the meantime.
   virtual void doneElsewhere(const PlannedRun& run) = 0;
   virtual void waiting(size_t heldByOthers) = 0;
+  /// A run that another task has taken from the queue: it is not planned here any more.
+  virtual void leftToOther(const PlannedRun&) {}
 };
 
 /// The outcome of a sweep. planned = done + skipped + failed + left.

@@ -19,8 +19,7 @@
 namespace limen::experiments {
 namespace {
 
-std::vector<int> chooseDevices(const SweepProgram& program, const std::string& which) {
-  const std::vector<SweepDevice> devices = program.devices ? program.devices() : std::vector<SweepDevice>{};
+std::vector<int> chooseDevices(const std::vector<SweepDevice>& devices, const std::string& which) {
   std::vector<int> out;
   if (which == "all") {
     for (size_t i = 0; i < devices.size(); ++i) {
@@ -51,8 +50,9 @@ std::vector<int> chooseDevices(const SweepProgram& program, const std::string& w
   return out;
 }
 
-int sweepGroup(const SweepGroup& group, const std::vector<int>& devices, const SweepProgram& program,
-               const SweepOptions& options, bool& stopped) {
+/// `all`: of the machine; `devices`: indices of those to measure on.
+int sweepGroup(const SweepGroup& group, const std::vector<SweepDevice>& all, const std::vector<int>& devices,
+               const SweepProgram& program, const SweepOptions& options, bool& stopped) {
   const SweepOutput output(options);
   const std::string folder = tasksFolder(group.store);
   std::set<std::string> left = keysOf(group);
@@ -64,7 +64,6 @@ int sweepGroup(const SweepGroup& group, const std::vector<int>& devices, const S
     enterPlans(group);
     gather(group.store, output);
     std::set<std::string> names;
-    const std::vector<SweepDevice> all = program.devices();
     for (const int device : devices) names.insert(all[static_cast<size_t>(device)].name);
     const Facts facts = factsOf(store::Store(group.store, store::Access::ReadOnly), names);
     left = leftOf(std::move(left), facts, options.retryDied);
@@ -82,12 +81,14 @@ int sweepGroup(const SweepGroup& group, const std::vector<int>& devices, const S
     output.say(fmt::format("{} of {} left, on {}; logs in {}", left.size(),
                            describeCount(keysOf(group).size(), "run"), describeCount(keys.size(), "GPU"),
                            submission.folder));
+    // Metrics use all processors that a task may run on.
+    const std::vector<std::vector<int>> cores = shareOfCores(keys.size());
     std::vector<KeptProgram> programs;
     std::vector<Restarts> restarts;
     for (size_t i = 0; i < keys.size(); ++i) {
       const int task = static_cast<int>(i) + 1;
       programs.push_back(
-          {measuringCall(submission, task, std::to_string(devices[i])), taskLog(submission, task)});
+          {measuringCall(submission, task, std::to_string(devices[i])), taskLog(submission, task), cores[i]});
       restarts.emplace_back(taskStore(submission, task));
     }
     ProgressLine line(submission, left.size());
@@ -116,11 +117,12 @@ int sweepGroup(const SweepGroup& group, const std::vector<int>& devices, const S
 
 int sweepOnDevices(const SweepProgram& program, const SweepOptions& options) {
   const std::vector<SweepGroup> groups = groupedSweeps(program, options);
-  const std::vector<int> devices = chooseDevices(program, options.gpus);
+  const std::vector<SweepDevice> all = program.devices ? program.devices() : std::vector<SweepDevice>{};
+  const std::vector<int> devices = chooseDevices(all, options.gpus);
   int exitCode = kExitSuccess;
   bool stopped = false;
   for (const SweepGroup& group : groups) {
-    exitCode = std::max(exitCode, sweepGroup(group, devices, program, options, stopped));
+    exitCode = std::max(exitCode, sweepGroup(group, all, devices, program, options, stopped));
     if (stopped || (options.failFast && exitCode != kExitSuccess)) break;
   }
   return exitCode;

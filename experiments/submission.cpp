@@ -147,6 +147,8 @@ void writeSubmission(Submission& submission, const std::vector<std::vector<std::
 std::string taskStore(const Submission& submission, int task) { return file(submission, task, ".sqlite"); }
 std::string taskLog(const Submission& submission, int task) { return file(submission, task, ".log"); }
 
+std::string queueFile(const Submission& submission) { return submission.folder + "/taken"; }
+
 std::vector<std::string> taskKeys(const Submission& submission, int task) {
   std::vector<std::string> out;
   const std::string text = textOf(file(submission, task, ".keys"));

@@ -38,6 +38,8 @@ void writeSubmission(Submission& submission, const std::vector<std::vector<std::
 
 std::string taskStore(const Submission& submission, int task);
 std::string taskLog(const Submission& submission, int task);
+/// Of the runs that tasks on one host have taken (SharedQueue).
+std::string queueFile(const Submission& submission);
 std::vector<std::string> taskKeys(const Submission& submission, int task);
 
 /// `path`, relative to `folder` unless absolute.

@@ -54,6 +54,8 @@ class Sweeper {
     if (!options_.gpus.empty() && !options_.dryRun) return sweepOnDevices(program_, options_);
     const std::vector<PlannedSweep> sweeps = planSweeps(options_, program_.catalogue());
     if (options_.share) requirePlanned(sweeps);
+    if (options_.share && !options_.share->queueFile.empty())
+      queue_.emplace(options_.share->queueFile, options_.share->task);
     if (options_.dryRun) return printPlans(sweeps);
     installInterruptHandlers();
     int exitCode = kExitSuccess;
@@ -182,6 +184,7 @@ class Sweeper {
       if (options_.share) {
         observer = makePair(std::move(observer), makeProgressWriter(options_.share->progressFile));
         runnerOptions.only = only;
+        if (queue_) runnerOptions.queue = &*queue_;
         runnerOptions.begin = static_cast<double>(options_.share->task - 1) / options_.share->tasks;
       }
       tally = runSweep(sweep.plan, results, *executor, environmentFacts(command_, options_.root),
@@ -222,6 +225,7 @@ class Sweeper {
   std::vector<std::string> command_;
   SweepOutput output_;
   std::map<std::string, std::unique_ptr<Executor>> executors_;
+  std::optional<SharedQueue> queue_;
 };
 
 int parseAndSweep(int argc, char** argv, const SweepProgram& program) {

@@ -13,6 +13,8 @@ struct TaskShare {
   std::unordered_set<std::string> keys;
   int task = 1, tasks = 1;
   std::string progressFile;
+  std::string
+      queueFile;  ///< of tasks that take runs from each other (SharedQueue); "": the keys are this one's
 };
 
 /// The options of `limen sweep` and its commands.

@@ -58,6 +58,7 @@ class ProgressWriter : public SweepObserver {
   }
   void doneElsewhere(const PlannedRun&) override { ++progress_.done; }
   void waiting(size_t) override {}
+  void leftToOther(const PlannedRun&) override { --progress_.planned; }
 
  private:
   void writeNowAndThen() {

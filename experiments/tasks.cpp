@@ -69,7 +69,11 @@ SweepOptions optionsOfTask(const SweepOptions& options) {
   out.store = taskStore(submission, options.jobTask);
   out.noReport = true;
   TaskShare share;
-  for (const std::string& key : taskKeys(submission, options.jobTask)) share.keys.insert(key);
+  // Tasks on one host share everything; each begins elsewhere.
+  const bool alone = !submission.array.empty();
+  for (int task = alone ? options.jobTask : 1; task <= (alone ? options.jobTask : submission.tasks); ++task)
+    for (const std::string& key : taskKeys(submission, task)) share.keys.insert(key);
+  if (!alone) share.queueFile = queueFile(submission);
   share.task = options.jobTask;
   share.tasks = submission.tasks;
   share.progressFile = progressFile(submission, options.jobTask);
