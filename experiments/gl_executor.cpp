@@ -16,6 +16,7 @@
 #include "experiments/frame_path.h"
 #include "experiments/frame_timing.h"
 #include "experiments/gpu_clock.h"
+#include "experiments/live_run.h"
 #include "experiments/measured_quantities.h"
 #include "experiments/plan.h"
 #include "experiments/product.h"
@@ -24,7 +25,6 @@
 #include "experiments/scene_rendering.h"
 #include "perception/metrics/error_map.h"
 #include "perception/metrics/metric_gpu.h"
-#include "renderer/gl/devices.h"
 #include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
@@ -35,25 +35,6 @@ using std::chrono::steady_clock;
 /// Slow techniques get fewer timed frames than asked for: a run's timing ends after this.
 constexpr double kMaxTimingSeconds = 8.0;
 
-/// Adds its lifetime to a total.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total), start_(steady_clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& total_;
-  steady_clock::time_point start_;
-};
-
-/// A scene before it is on the GPU; building and hashing a large one can take longer than a run.
-struct BuiltScene {
-  scene::Scene scene;
-  nlohmann::json facts;
-};
-
 BuiltScene build(const Configuration& choice) {
   BuiltScene out{scene::buildScene(choice.name, choice.values), {}};
   out.facts = sceneFacts(out.scene);
@@ -61,36 +42,6 @@ BuiltScene build(const Configuration& choice) {
 }
 
 std::string keyOf(const Configuration& scene) { return scene.name + scene.values.toJson().dump(); }
-
-/// A scene and its view as shared by all runs of a batch.
-struct SharedScene {
-  explicit SharedScene(BuiltScene built) : onGpu(std::move(built.scene)), facts(std::move(built.facts)) {}
-
-  frame::SceneOnGpu onGpu;
-  nlohmann::json facts;
-  // For one image size:
-  glm::ivec2 sizePx{0};
-  std::shared_ptr<const ViewImages> view;  ///< shared with the threads that write pictures
-  std::optional<ShownSurfaces> surfaces;   ///< made when a metric first needs them
-};
-
-/// What is computed from a product while the GPU works.
-struct Afterwork {
-  std::vector<store::Artefact> artefacts;
-  std::string productHash;
-};
-
-/// One run of a batch in progress.
-struct LiveRun {
-  size_t index = 0;
-  const PlannedRun* plan = nullptr;
-  const techniques::TechniqueInfo* info = nullptr;
-  std::unique_ptr<frame::Frame> frame;
-  std::unique_ptr<techniques::Technique> technique;
-  std::optional<FrameTiming> timing;
-  std::future<Afterwork> afterwork;
-  RunOutcome outcome;
-};
 
 store::Measurement measurementOf(const techniques::Counter& counter, const techniques::TechniqueInfo& info) {
   const auto declared = std::find_if(info.counters.begin(), info.counters.end(),
@@ -431,20 +382,6 @@ class GlExecutor : public Executor {
 std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder,
                                          const std::string& referencesFolder) {
   return std::make_unique<GlExecutor>(resultsFolder, referencesFolder);
-}
-
-std::vector<SweepDevice> listDevices() {
-  std::vector<SweepDevice> out;
-  for (const gl::DeviceInfo& device : gl::listHeadlessDevices())
-    out.push_back({device.renderer.empty() ? "" : device.line(), device.software});
-  try {
-    const std::vector<bool> assigned = gl::assignedHeadlessDevices();
-    for (size_t i = 0; i < out.size(); ++i) out[i].assigned = assigned[i];
-  } catch (const Error&) {
-    for (SweepDevice& device : out)
-      if (!device.software) device.assigned.reset();
-  }
-  return out;
 }
 
 }  // namespace limen::experiments

@@ -219,47 +219,58 @@ TEST_F(SoftShadows, ScaleAndDistanceFromTheOriginDoNotMatter) {
   }
 }
 
-TEST_F(SoftShadows, EveryCornerOfTheParametersIsFinite) {
+/// A technique at a time: together they take minutes.
+class SoftShadowCorners : public SoftShadows, public testing::WithParamInterface<std::string> {
+ public:
+  static std::vector<std::string> chosen() {
+    std::vector<std::string> names = all();
+    std::erase(names, kChosenByTime);  // see scene_needs_test.cpp
+    return names;
+  }
+};
+
+TEST_P(SoftShadowCorners, AreFinite) {
   const std::vector<std::string> kDerived = {"soft_shadows/bitmask_coloured",
                                              "soft_shadows/history",
                                              "soft_shadows/in_motion",
                                              "soft_shadows/multisample",
                                              "soft_shadows/multisample_coloured",
                                              "soft_shadows/sparse"};
+  const std::string& technique = GetParam();
+  const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+  // What runs another technique, or has another's parameters, is tried where more breaks.
+  const bool derived = std::find(kDerived.begin(), kDerived.end(), technique) != kDerived.end();
   for (const char* sceneName : {"degenerate_soup", "box_under_light"}) {
+    if (derived && sceneName != std::string("degenerate_soup")) continue;
     const scene::Scene scene = makeScene(sceneName, {{"light_size", 3.0}});
-    for (const std::string& technique : all()) {
-      if (technique == kChosenByTime) continue;  // see scene_needs_test.cpp
-      const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
-      // What runs another technique, or has another's parameters, is tried where more breaks.
-      const bool derived = std::find(kDerived.begin(), kDerived.end(), technique) != kDerived.end();
-      if (derived && sceneName != std::string("degenerate_soup")) continue;
-      for (const DeclaredAt& at : flatten(info.parameters)) {
-        // Needs a picture; see budget_drivers_test.cpp.
-        const auto painted = [](const auto& choice) { return choice.second == "painted"; };
-        if (std::any_of(at.when.begin(), at.when.end(), painted)) continue;
-        // The inner technique's own have been tried with that technique.
-        if (at.path.starts_with("inner.")) continue;
-        for (const ParameterValue& end : endsOf(*at.parameter)) {
-          if (end == ParameterValue("painted")) continue;
-          Given given(at.when.begin(), at.when.end());
-          given[at.path] = end;
-          // Drivers differ in the numbers of samples that they have, and say so; see multisample_test.cpp.
-          if (technique.starts_with("soft_shadows/multisample") && at.path == "samples")
-            given["raster"] = std::string("compute");
-          const Given smaller = withMaps(technique, 64, given);
-          given.insert(smaller.begin(), smaller.end());
-          // What does not go together with the others' defaults; microquads_test.cpp tries those together.
-          if (refusal(technique, given)) continue;
-          const Rendered rendered = render(scene, technique, given, {24, 18});
-          for (const float value : rendered.product.data)
-            ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << sceneName << ", " << technique << ", " << at.path
-                                                        << " = " << limen::toText(end) << ": " << value;
-        }
+    for (const DeclaredAt& at : flatten(info.parameters)) {
+      // Needs a picture; see budget_drivers_test.cpp.
+      const auto painted = [](const auto& choice) { return choice.second == "painted"; };
+      if (std::any_of(at.when.begin(), at.when.end(), painted)) continue;
+      // The inner technique's own have been tried with that technique.
+      if (at.path.starts_with("inner.")) continue;
+      for (const ParameterValue& end : endsOf(*at.parameter)) {
+        if (end == ParameterValue("painted")) continue;
+        Given given(at.when.begin(), at.when.end());
+        given[at.path] = end;
+        // Drivers differ in the numbers of samples that they have, and say so; see multisample_test.cpp.
+        if (technique.starts_with("soft_shadows/multisample") && at.path == "samples")
+          given["raster"] = std::string("compute");
+        const Given smaller = withMaps(technique, 64, given);
+        given.insert(smaller.begin(), smaller.end());
+        // What does not go together with the others' defaults; microquads_test.cpp tries those together.
+        if (refusal(technique, given)) continue;
+        const Rendered rendered = render(scene, technique, given, {24, 18});
+        for (const float value : rendered.product.data)
+          ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << sceneName << ", " << technique << ", " << at.path
+                                                      << " = " << limen::toText(end) << ": " << value;
       }
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Techniques, SoftShadowCorners, testing::ValuesIn(SoftShadowCorners::chosen()),
+                         [](const auto& one) { return one.param.substr(one.param.find('/') + 1); });
 
 TEST_F(SoftShadows, CountersAddUp) {
   for (const std::string& technique : all()) {
