@@ -147,7 +147,9 @@ class SliceVoxelizer : public VoxelTechnique {
       : VoxelTechnique(settings.grid, Form::kName), settings_(settings) {}
 
  protected:
-  voxels::VolumeAttributes attributes() const override { return blendedAttributes(settings_.attributes); }
+  voxels::VolumeAttributes attributes(frame::Frame&, const voxels::VoxelGrid&) const override {
+    return blendedAttributes(settings_.attributes);
+  }
   int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) override {
     AxisVolumes::Form form{.stages = Form::stages(),
                            .defines = {{"CAP", std::to_string(settings_.vertices)}},
@@ -165,7 +167,7 @@ class SliceVoxelizer : public VoxelTechnique {
     return volumes_->bytes();
   }
   void fill(frame::Frame& frame, const voxels::Volume& volume) override { volumes_->fill(frame, volume); }
-  std::vector<Counter> countForm() const override {
+  std::vector<Counter> countForm(const voxels::Volume&) const override {
     return {{"draws", double(volumes_->draws())},
             {"lag_frames", settings_.refresh == AxisRefresh::One ? 2.0 : 0.0}};
   }
