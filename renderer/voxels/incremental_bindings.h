@@ -13,10 +13,14 @@ namespace limen::voxels {
 const int kMostDepthViews = 2;
 const uint kViewDepthsUnit = 0u;
 const uint kViewTrianglesUnit = 2u;
+const uint kViewTilesUnit = 4u;  // least and largest depth of each tile, kDepthTile px a side
+const int kDepthTile = 8;
+const uint kDepthTilesImage = 0u;
 
 // A brick is what one work group cleans up: words of 32 voxels along x, 8 x 8 of them.
 const int kBrickSide = 8;
 const int kBrickWords = 64;
+const int kBrickLanes = 256;  // of its group
 const int kSampleGroup = 64;
 
 const uint kSampledBitsImage = 0u;     // as kVoxelBitsImage

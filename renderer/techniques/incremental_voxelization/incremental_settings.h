@@ -38,6 +38,15 @@ constexpr EnumNames<LightMapUse, 2> enumNames(LightMapUse) {
   return {{{{LightMapUse::Shade, "shade"}, {LightMapUse::Voxels, "voxels"}}}};
 }
 
+/// How whole bricks of voxels are decided before any of their voxels is looked at.
+enum class BrickDecision {
+  None,
+  Tiles  ///< by the least and the largest depth of tiles of the depth images
+};
+constexpr EnumNames<BrickDecision, 2> enumNames(BrickDecision) {
+  return {{{{BrickDecision::None, "none"}, {BrickDecision::Tiles, "tiles"}}}};
+}
+
 struct LightMapSettings {
   LightMapUse use = LightMapUse::Voxels;
   int resolution = 512;

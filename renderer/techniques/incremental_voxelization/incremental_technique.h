@@ -43,6 +43,12 @@ class IncrementalTechnique : public Technique {
     const voxels::SampleLighting& lighting;
     int number;
   };
+  /// Of the views that tell of voxels; valid in prepareForm().
+  std::vector<glm::ivec2> viewSizesPx(const frame::Frame& frame, int used) const {
+    std::vector<glm::ivec2> out = {frame.sizePx()};
+    if (used == 2) out.emplace_back(settings_.lightMap.resolution);
+    return out;
+  }
   /// Samples that a step takes of each view at most.
   virtual int64_t samplesPerView() const = 0;
   /// Compiles and allocates; `views` are bound, `used` of them tell of voxels. Returns the bytes that it

@@ -7,6 +7,7 @@
 // over a voxel's samples, light is stored as radiance instead of as harmonics, which follow from it and the
 // normal; the light's samples count as their mean, not as a sum of fluxes, which would depend on the map.
 #include <optional>
+#include <vector>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/voxels/clean_up.h"
@@ -29,6 +30,7 @@ struct TwoStageSettings {
   bool attributes = true;
   voxels::CleanUpSettings cleanUp;
   CleanUpRegion region = CleanUpRegion::Everywhere;
+  BrickDecision bricks = BrickDecision::None;
   voxels::PointSettings points;
   static const SettingsTable<TwoStageSettings>& table() {
     using S = TwoStageSettings;
@@ -37,6 +39,7 @@ struct TwoStageSettings {
         {&S::attributes, "attributes", "Normal, reflectance and light of each voxel besides occupancy"},
         {&S::cleanUp, "clean_up", "When a depth image disproves a voxel"},
         {&S::region, "region", "Where voxels are tested", "Gaitatzes 2012, section 7.8"},
+        {&S::bricks, "bricks", "How whole bricks of 32 x 8 x 8 voxels are decided at once; changes no voxel"},
         {&S::points, "points", "Points at which depth images are sampled"}};
     return kTable;
   }
@@ -53,10 +56,12 @@ class TwoStage : public IncrementalTechnique {
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    cleanUp_.emplace(frame.context(), settings_.cleanUp, volume, views, used);
+    cleanUp_.emplace(frame.context(), settings_.cleanUp, volume, views, used,
+                     settings_.bricks == BrickDecision::Tiles ? viewSizesPx(frame, used)
+                                                              : std::vector<glm::ivec2>());
     injection_.emplace(frame.context(), settings_.points, volume, views, used);
     if (settings_.region == CleanUpRegion::Moving) bricks_.emplace(frame.scene(), volume.grid());
-    return bricks_ ? bricks_->list().bytes() : 0;
+    return cleanUp_->bytes() + (bricks_ ? bricks_->list().bytes() : 0);
   }
   void update(const Step& step) override {
     {
