@@ -20,7 +20,7 @@ void main() {
   SeenSample seen;
   if (!sampleOf(view, int(gl_GlobalInvocationID.x), seen)) return;
   const SeenSurface surface = surfaceOf(view, seen.pixel, seen.place);
-  const uint first = (kSampleWords + kSampleViewWords * uint(USED_VIEWS)) * imageLoad(slotsImage, seen.voxel).x;
+  const uint first = (kSampleWords + kSampleViewWords * uint(USED_VIEWS)) * imageLoad(slotsImage, storedVoxel(seen.voxel)).x;
   atomicAdd(sampleSums[first], 1u);
   addTo(first + 1u, sampleScale * surface.normal);
   addTo(first + 4u, sampleScale * surface.albedo);

@@ -17,9 +17,9 @@ vec2 tileAt(int view, ivec2 tile) {
 // Of more tiles than this it is not worth while.
 const int kMostTiles = 16 * kBrickLanes;
 
-int disproofOfBrickByView(int view, ivec3 first) {
+int disproofOfBrickByView(int view, ivec3 first, ivec3 end) {
   // A voxel larger on all sides than the brick: of a voxel at its border no pixel is looked at that lies outside.
-  const vec3 low = vec3(first) - 1.0, high = vec3(min(first + ivec3(32, kBrickSide, kBrickSide), gridSize())) + 1.0;
+  const vec3 low = vec3(first) - 1.0, high = vec3(end) + 1.0;
   float nearest = 1e30, farthest = -1e30;
   vec2 lowPlace = vec2(1e30), highPlace = vec2(-1e30);
   for (int i = 0; i < 8; ++i) {
@@ -60,10 +60,14 @@ int disproofOfBrickByView(int view, ivec3 first) {
   return isWhole && clears && (least > 0.0 || skyDisproves) ? kDisproofCleared : kDisproofSurface;
 }
 
-int disproofOfBrick(ivec3 first) {
+// `stored`: where its first voxel is stored.
+int disproofOfBrick(ivec3 stored) {
+  const ivec3 size = min(stored + ivec3(32, kBrickSide, kBrickSide), gridSize()) - stored, first = voxelStoredAt(stored);
+  // Of a brick that wraps around.
+  if (voxelStoredAt(stored + size - 1) != first + size - 1) return kDisproofSurface;
   int result = kDisproofStays;
   for (int view = 0; view < USED_VIEWS; ++view) {
-    const int one = disproofOfBrickByView(view, first);
+    const int one = disproofOfBrickByView(view, first, first + size);
     if (one == kDisproofCleared || result == kDisproofCleared)
       result = kDisproofCleared;
     else if (one == kDisproofSurface)
@@ -72,5 +76,5 @@ int disproofOfBrick(ivec3 first) {
   return result;
 }
 #else
-int disproofOfBrick(ivec3 first) { return kDisproofSurface; }
+int disproofOfBrick(ivec3 stored) { return kDisproofSurface; }
 #endif

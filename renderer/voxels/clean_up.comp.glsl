@@ -4,9 +4,14 @@
 #include "renderer/voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.glsl"
 #ifdef FORGET
+#ifdef ENTERED  // what the grid did not hold before it moved by a number of voxels
+uniform int shiftX, shiftY, shiftZ;
+bool isDisproved(ivec3 voxel) { return !isInGrid(voxel + ivec3(shiftX, shiftY, shiftZ)); }
+#else
 bool isDisproved(ivec3 voxel) { return true; }
+#endif
 const int kDisproofStays = 0, kDisproofSurface = 1, kDisproofCleared = 2;
-int disproofOfBrick(ivec3 first) { return kDisproofCleared; }
+int disproofOfBrick(ivec3 first) { return kDisproofSurface; }
 #else
 #include "renderer/voxels/brick_disproof.glsl"
 #endif
@@ -63,7 +68,7 @@ void main() {
   for (uint i = lane; i < occupiedCount && whole != kDisproofStays; i += uint(kBrickLanes)) {
     const uint at = occupied[i] / 32u, bit = occupied[i] % 32u;
     const ivec3 voxel = ivec3(32 * first.x + int(bit), first.yz + ivec2(at % uint(kBrickSide), at / uint(kBrickSide)));
-    if (whole != kDisproofCleared && !isDisproved(voxel)) continue;
+    if (whole != kDisproofCleared && !isDisproved(voxelStoredAt(voxel))) continue;
     atomicAnd(words[at], ~(1u << bit));
     atomicAdd(clearedCount, 1u);
 #ifdef ATTRIBUTES

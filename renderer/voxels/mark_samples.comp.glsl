@@ -23,14 +23,14 @@ void main() {
   SeenSample seen;
   if (sampleOf(int(gl_WorkGroupID.z), int(gl_GlobalInvocationID.x), seen)) {
     atomicAdd(sampleCount, 1u);
-    const ivec3 texel = ivec3(seen.voxel.x >> 5, seen.voxel.yz);
-    const uint bit = 1u << (seen.voxel.x & 31);
+    const ivec3 at = storedVoxel(seen.voxel), texel = ivec3(at.x >> 5, at.yz);
+    const uint bit = 1u << (at.x & 31);
     if ((imageLoad(bitsImage, texel).x & bit) == 0u && (imageAtomicOr(bitsImage, texel, bit) & bit) == 0u) atomicAdd(addedCount, 1u);
 #ifdef ATTRIBUTES
     if ((imageLoad(touchedImage, texel).x & bit) == 0u && (imageAtomicOr(touchedImage, texel, bit) & bit) == 0u) {
       const uint slot = atomicAdd(sampleCounts[turn].touched, 1u);
-      sampleList[slot] = uint(seen.voxel.x) | uint(seen.voxel.y) << 10 | uint(seen.voxel.z) << 20;
-      imageStore(slotsImage, seen.voxel, uvec4(slot));
+      sampleList[slot] = uint(at.x) | uint(at.y) << 10 | uint(at.z) << 20;
+      imageStore(slotsImage, at, uvec4(slot));
     }
 #endif
   }

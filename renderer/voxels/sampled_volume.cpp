@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/voxels/sampled_volume.h"
 
+#include "renderer/voxels/clean_up.h"
+
 namespace limen::voxels {
 namespace {
 
@@ -9,7 +11,7 @@ constexpr int64_t kStateHeader = 2 * int64_t{sizeof(SampleCounts)};
 }  // namespace
 
 SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes,
-                             int views, int64_t samples)
+                             int views, int64_t samples, bool scrolls)
     : grid_(grid),
       anchor_(anchor),
       occupancy_(context, grid, anchor),
@@ -26,6 +28,13 @@ SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::d
     attributes_->touched.clearUint(glm::uvec4(0));
   }
   state_.clearUint(0);
+  if (scrolls) {
+    entered_ = &context.programs().compute("renderer/voxels/clean_up.comp.glsl", [&] {
+      gl::ShaderDefines defines = this->defines();
+      defines["TOROIDAL"] = defines["FORGET"] = defines["ENTERED"] = "1";
+      return defines;
+    }());
+  }
   clear();
 }
 
@@ -45,13 +54,40 @@ void SampledVolume::clear() const {
 }
 
 void SampledVolume::moveTo(glm::dvec3 origin) {
+  const glm::dvec3 voxels = glm::round((origin - grid_.origin) / grid_.voxelSize);
   grid_.origin = origin;
-  clear();
+  if (!scrolls() || glm::any(glm::greaterThanEqual(glm::abs(voxels), glm::dvec3(grid_.resolution)))) {
+    clear();
+    return;
+  }
+  const glm::ivec3 shift(voxels), size = grid_.resolution;
+  wrap_ = ((wrap_ + shift) % size + size) % size;
+  bind(*entered_);
+  entered_->set("shiftX", shift.x);
+  entered_->set("shiftY", shift.y);
+  entered_->set("shiftZ", shift.z);
+  const glm::ivec3 counts = brickCounts(grid_);
+  dispatchBricks(*entered_, grid_, counts.x * counts.y * counts.z);
+}
+
+std::vector<uint8_t> SampledVolume::readOccupied() const {
+  const std::vector<uint8_t> stored = occupancy_.readOccupied();
+  std::vector<uint8_t> out(stored.size());
+  glm::ivec3 v;
+  for (v.z = 0; v.z < grid_.resolution.z; ++v.z)
+    for (v.y = 0; v.y < grid_.resolution.y; ++v.y)
+      for (v.x = 0; v.x < grid_.resolution.x; ++v.x)
+        out[static_cast<size_t>(grid_.indexOf(v))] = stored[static_cast<size_t>(grid_.indexOf(storedVoxel(v)))];
+  return out;
 }
 
 void SampledVolume::configure(const gl::Program& program) const {
   occupancy_.configure(program);
   program.set("gridOrigin", glm::vec3(grid_.origin - anchor_));
+  if (!scrolls()) return;
+  program.set("wrapX", wrap_.x);
+  program.set("wrapY", wrap_.y);
+  program.set("wrapZ", wrap_.z);
 }
 
 void SampledVolume::bind(const gl::Program& program) const {
@@ -70,6 +106,7 @@ void SampledVolume::bind(const gl::Program& program) const {
 gl::ShaderDefines SampledVolume::defines() const {
   gl::ShaderDefines defines;
   if (attributes_) defines["ATTRIBUTES"] = "1";
+  if (scrolls()) defines["TOROIDAL"] = "1";
   return defines;
 }
 

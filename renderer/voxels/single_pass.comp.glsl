@@ -29,14 +29,16 @@ shared uint seen[32 * kBrickWords];  // voxel of the brick, and 2^16 times the v
 #endif
 
 #ifdef ATTRIBUTES
-void update(ivec3 voxel, int view) {
+// `stored`: where the voxel is stored.
+void update(ivec3 stored, int view) {
+  const ivec3 voxel = voxelStoredAt(stored);
   const vec2 place = viewPlace(view, toView(view, vec3(voxel) + 0.5));
   const ivec2 pixel = ivec2(place);
   const vec3 at = (voxelsFromView[view] * vec4(viewNear[view] / depthAt(view, pixel) * viewRay(view, pixel), 1.0)).xyz;
   const SeenSurface surface = surfaceOf(view, pixel, at);
-  imageStore(normalImage, voxel, vec4(surface.normal, 1.0));
-  imageStore(albedoImage, voxel, vec4(surface.albedo, 1.0));
-  imageStore(lightImage, voxel, vec4(surface.light, 1.0));
+  imageStore(normalImage, stored, vec4(surface.normal, 1.0));
+  imageStore(albedoImage, stored, vec4(surface.albedo, 1.0));
+  imageStore(lightImage, stored, vec4(surface.light, 1.0));
 }
 #endif
 
@@ -101,7 +103,7 @@ void main() {
     if (!isInGrid(voxel)) continue;
     const uint at = i / 32u, bit = i % 32u;
     int by = -1;
-    const bool was = (words[at] >> bit & 1u) != 0u, is = whole != kDisproofCleared && isFilled(voxel, was, by);
+    const bool was = (words[at] >> bit & 1u) != 0u, is = whole != kDisproofCleared && isFilled(voxelStoredAt(voxel), was, by);
 #ifdef ATTRIBUTES
     if (was && !is) erase(voxel);
     if (by >= 0) seen[atomicAdd(seenCount, 1u)] = i | uint(by) << 16;

@@ -59,7 +59,7 @@ class IncrementalTechnique : public Technique {
   virtual void update(const Step& step) = 0;
   /// Renders the product of a step; by default a picture of the voxels.
   virtual void show(const Step& step, const gl::Texture& picture);
-  /// The grid moved and the volume is empty.
+  /// The grid moved, and the volume is empty or has scrolled.
   virtual void restarted(const voxels::VoxelGrid&) {}
   /// Whether the volume counts what a step does.
   virtual bool countsSteps() const { return true; }
@@ -77,7 +77,7 @@ class IncrementalTechnique : public Technique {
   const gl::Program* show_ = nullptr;
   std::vector<voxels::DepthView> views_;
   voxels::SampleLighting lighting_;
-  int number_ = 0, restarts_ = 0;
+  int number_ = 0, restarts_ = 0, scrolls_ = 0;
 };
 
 }  // namespace limen::techniques

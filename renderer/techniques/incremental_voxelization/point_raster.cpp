@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
 #include "renderer/techniques/incremental_voxelization/voxel_textures.h"
@@ -32,6 +33,11 @@ struct PointRasterSettings {
   VoxelLayout layout = VoxelLayout::Atlas;
   int targets = 4;
   RasterFormat format = RasterFormat::Full;
+  void check() const {
+    if (scrolls(common.box))
+      throw Error("volumes in textures are emptied where the box moves", "box",
+                  "choose move: empty, or incremental_voxelization/two_stage");
+  }
   static const SettingsTable<PointRasterSettings>& table() {
     using S = PointRasterSettings;
     static const SettingsTable<S> kTable = {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/voxels/clean_up.h"
 #include "renderer/voxels/moving_bricks.h"
@@ -32,6 +33,11 @@ struct TwoStageSettings {
   CleanUpRegion region = CleanUpRegion::Everywhere;
   BrickDecision bricks = BrickDecision::None;
   voxels::PointSettings points;
+  void check() const {
+    if (region == CleanUpRegion::Moving && scrolls(common.box))
+      throw Error("bricks in which parts have been are those of a box that does not scroll", "region",
+                  "choose region: everywhere, or a box that is emptied where it moves");
+  }
   static const SettingsTable<TwoStageSettings>& table() {
     using S = TwoStageSettings;
     static const SettingsTable<S> kTable = {
