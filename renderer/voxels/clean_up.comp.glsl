@@ -20,7 +20,6 @@ layout(local_size_x = kBrickLanes) in;
 layout(binding = kSampledBitsImage, r32ui) uniform uimage2DArray bitsImage;
 layout(std430, binding = kSampleStateBuffer) buffer State {
   SampleCounts sampleCounts[2];
-  uint sampleList[];
 };
 uniform int turn;
 #ifdef LISTED_BRICKS

@@ -24,8 +24,6 @@ const int kBrickLanes = 256;  // of its group
 const int kSampleGroup = 64;
 
 const uint kSampledBitsImage = 0u;     // as kVoxelBitsImage
-const uint kTouchedBitsImage = 1u;     // voxels with samples in this step, the same way
-const uint kSlotsImage = 2u;           // r32ui, one a voxel: where its sums are
 const uint kSampledNormalImage = 3u;   // rgba16f
 const uint kSampledAlbedoImage = 4u;
 const uint kSampledLightImage = 5u;
@@ -45,7 +43,9 @@ struct SampleCounts {  // std430; of one step
   uint tested;         // bricks
   uint padding0, padding1;
 };
-// The state's buffer: two of these, used in turn; then a touched voxel a word, or a brick a word.
+// The state's buffer: two of these, used in turn; then the keys of a hash table of touched voxels, 0 where a place is free:
+// this bit, and 10 bits each of where the voxel is stored.
+const uint kSampleKey = 0x80000000u;
 #ifdef __cplusplus
 static_assert(sizeof(SampleCounts) == 32);
 #endif

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/voxels/sampled_volume.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "renderer/voxels/clean_up.h"
 
 namespace limen::voxels {
 namespace {
 
 constexpr int64_t kStateHeader = 2 * int64_t{sizeof(SampleCounts)};
+
+/// Twice as many as voxels with samples may be, so that few look for theirs for long.
+uint32_t placesFor(bool attributes, const VoxelGrid& grid, int64_t samples) {
+  if (!attributes) return 1;
+  return static_cast<uint32_t>(
+      std::bit_ceil(static_cast<uint64_t>(2 * std::max<int64_t>(std::min(samples, grid.count()), 1))));
+}
 
 }  // namespace
 
@@ -15,17 +25,15 @@ SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::d
     : grid_(grid),
       anchor_(anchor),
       occupancy_(context, grid, anchor),
-      state_(kStateHeader + 4 * samples, nullptr) {
+      places_(placesFor(attributes, grid, samples)),
+      state_(kStateHeader + 4 * int64_t{places_}, nullptr) {
   const glm::ivec3 size = grid.resolution;
   if (attributes) {
     const auto layers = [&](gl::Format format) { return gl::Texture(format, glm::ivec2(size), 1, size.z); };
     const int64_t words = int64_t{kSampleWords} + int64_t{kSampleViewWords} * views;
     attributes_.emplace(Attributes{layers(gl::Format::RGBA16F), layers(gl::Format::RGBA16F),
-                                   layers(gl::Format::RGBA16F),
-                                   gl::Texture(gl::Format::R32UI, occupancy_.bits().sizePx(), 1, size.z),
-                                   layers(gl::Format::R32UI), gl::Buffer(4 * words * samples, nullptr)});
+                                   layers(gl::Format::RGBA16F), gl::Buffer(4 * words * places_, nullptr)});
     attributes_->sums.clearUint(0);
-    attributes_->touched.clearUint(glm::uvec4(0));
   }
   state_.clearUint(0);
   if (scrolls) {
@@ -42,7 +50,7 @@ int64_t SampledVolume::bytes() const {
   int64_t sum = occupancy_.bytes() + state_.bytes();
   if (attributes_)
     sum += attributes_->normal.bytes() + attributes_->albedo.bytes() + attributes_->light.bytes() +
-           attributes_->touched.bytes() + attributes_->slots.bytes() + attributes_->sums.bytes();
+           attributes_->sums.bytes();
   return sum;
 }
 
@@ -96,8 +104,6 @@ void SampledVolume::bind(const gl::Program& program) const {
   occupancy_.bits().bindImage(kSampledBitsImage, gl::Access::ReadWrite);
   state_.bindStorage(kSampleStateBuffer);
   if (!attributes_) return;
-  attributes_->touched.bindImage(kTouchedBitsImage, gl::Access::ReadWrite);
-  attributes_->slots.bindImage(kSlotsImage, gl::Access::ReadWrite);
   attributes_->normal.bindImage(kSampledNormalImage, gl::Access::Write);
   attributes_->albedo.bindImage(kSampledAlbedoImage, gl::Access::Write);
   attributes_->light.bindImage(kSampledLightImage, gl::Access::Write);

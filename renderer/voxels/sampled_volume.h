@@ -54,17 +54,20 @@ class SampledVolume {
   void bind(const gl::Program& program) const;
   /// What they are compiled with.
   gl::ShaderDefines defines() const;
-  const gl::Buffer& sums() const { return attributes_->sums; }  ///< only with attributes
+  /// Only with attributes: sums of touched voxels, and how many places there are for them, a power of 2.
+  const gl::Buffer& sums() const { return attributes_->sums; }
+  uint32_t places() const { return places_; }
 
  private:
   struct Attributes {
-    gl::Texture normal, albedo, light, touched, slots;
+    gl::Texture normal, albedo, light;
     gl::Buffer sums;
   };
   VoxelGrid grid_;
   glm::dvec3 anchor_;
   Volume occupancy_;
   std::optional<Attributes> attributes_;
+  uint32_t places_;
   gl::Buffer state_;
   glm::ivec3 wrap_{0};  // where voxel (0, 0, 0) is stored
   const gl::Program* entered_ = nullptr;

@@ -50,6 +50,12 @@ int64_t bytesOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
 
 std::string mebibytes(int64_t bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
 
+int64_t mostBufferBytes() {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  return most;
+}
+
 /// The attributes in a format within their budget.
 VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
   assert(attributes.format == gl::Format::RGBA16F || attributes.format == gl::Format::RGBA32F);
@@ -63,8 +69,7 @@ VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
     throw Error(what + " takes " + mebibytes(bytes) + ", more than its budget of " +
                     mebibytes(attributes.budgetBytes),
                 {}, "choose a lower resolution, fewer attributes or 16-bit floats, or raise the budget");
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  const int64_t most = mostBufferBytes();
   const int64_t sums = sumBytesOf(grid, attributes);
   if (sums > most)
     throw Error(what + " needs sums of " + mebibytes(sums) + "; this device's shaders reach " +
@@ -115,6 +120,12 @@ Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
   if (attributes_.joined) return;
   finish_ = program(nullptr);
   finishWith_ = program("BASE");
+}
+
+bool fitSumsOfAll(const VoxelGrid& grid, VolumeAttributes attributes) {
+  attributes.sums = VoxelSums::All;
+  return sumBytesOf(grid, attributes) <= mostBufferBytes() &&
+         bytesOf(grid, attributes) <= attributes.budgetBytes;
 }
 
 int64_t Volume::bytes() const { return bytesOf(grid_, attributes_); }

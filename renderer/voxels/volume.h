@@ -87,4 +87,7 @@ class Volume {
                                       *finishWith_ = nullptr;
 };
 
+/// Whether sums of all voxels fit into the device's buffers, and into the budget.
+bool fitSumsOfAll(const VoxelGrid& grid, VolumeAttributes attributes);
+
 }  // namespace limen::voxels

@@ -63,7 +63,7 @@ struct VolumeAttributes {
   /// Bytes that the volume may hold. Beyond it an Error, or, with `mayHalve`, RGBA16F in place of RGBA32F.
   int64_t budgetBytes = int64_t{4} << 30;
   bool mayHalve = false;
-  VoxelSums sums = VoxelSums::Occupied;
+  VoxelSums sums = VoxelSums::All;
   int64_t mostOccupied = 0;  ///< that VoxelSums::Occupied has room for; 0: as many as the grid has
   bool joined = false;       ///< bits and sums alone, for Volume::finishWith() of another
 

@@ -15,7 +15,7 @@ struct SinglePassSettings {
   bool attributes = true;
   voxels::CleanUpBias bias = voxels::RadiusBias{};
   bool sky = true;
-  BrickDecision bricks = BrickDecision::Tiles;
+  BrickDecision bricks = BrickDecision::None;
   static const SettingsTable<SinglePassSettings>& table() {
     using S = SinglePassSettings;
     static const SettingsTable<S> kTable = {

@@ -35,10 +35,20 @@ struct SumsOfOccupied {
     return kTable;
   }
 };
+struct SumsThatFit {
+  static constexpr const char *kKind = "fitting",
+                              *kSummary = "all of the grid; occupied ones where these exceed a buffer or the budget";
+  double spare = 1.5;
+  static const SettingsTable<SumsThatFit>& table() {
+    static const SettingsTable<SumsThatFit> kTable = {
+        {&SumsThatFit::spare, "spare", {1.0, 16.0}, "", "As that of occupied, for occupied ones"}};
+    return kTable;
+  }
+};
 struct SumsOfAll {
   static constexpr const char *kKind = "all", *kSummary = "all of the grid, in the run that fills them";
 };
-using SumsSetting = std::variant<SumsOfOccupied, SumsOfAll>;
+using SumsSetting = std::variant<SumsThatFit, SumsOfOccupied, SumsOfAll>;
 
 struct MeanSurface {
   static constexpr const char *kKind = SurfaceVoxelAttributes::kKind,
@@ -107,10 +117,17 @@ class ImageStore : public VoxelTechnique {
       sums = &light->sums;
     }
     if (!sums) return out;
-    const auto* occupied = std::get_if<SumsOfOccupied>(sums);
-    out.sums = occupied ? voxels::VoxelSums::Occupied : voxels::VoxelSums::All;
-    if (occupied) {
-      const double spare = frame.scene().motions.empty() ? 1.0 : occupied->spare;
+    double spare = 1.0;
+    if (const auto* occupied = std::get_if<SumsOfOccupied>(sums)) {
+      out.sums = voxels::VoxelSums::Occupied;
+      spare = occupied->spare;
+    }
+    if (const auto* fitting = std::get_if<SumsThatFit>(sums)) {
+      out.sums = voxels::fitSumsOfAll(grid, out) ? voxels::VoxelSums::All : voxels::VoxelSums::Occupied;
+      spare = fitting->spare;
+    }
+    if (out.sums == voxels::VoxelSums::Occupied) {
+      if (frame.scene().motions.empty()) spare = 1.0;
       const int64_t now = voxels::countOccupied(frame, grid, settings_.coverage);
       out.mostOccupied = std::max<int64_t>(1, std::llround(spare * static_cast<double>(now)));
     }

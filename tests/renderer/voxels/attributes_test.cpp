@@ -211,7 +211,7 @@ TEST_F(VoxelAttributesTest, SumsOfOccupiedVoxelsAreThoseOfAll) {
   frame::Frame frame(context(), scene, gpuScene, {16, 16});
   for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin, Coverage::Conservative}) {
     VolumeAttributes all = kAll, occupied = kAll;
-    all.sums = VoxelSums::All;
+    occupied.sums = VoxelSums::Occupied;
     occupied.mostOccupied = countOccupied(frame, grid, coverage);
     const Volume dense(context(), grid, gpuScene.anchor(), all),
         compact(context(), grid, gpuScene.anchor(), occupied);
@@ -232,6 +232,7 @@ TEST_F(VoxelAttributesTest, VoxelsBeyondTheRoomForSumsAreCounted) {
   const scene::Scene scene = litCorner();
   const VoxelGrid grid = tightGrid(scene.bounds(), 24);
   VolumeAttributes tight = kAll;
+  tight.sums = VoxelSums::Occupied;
   tight.mostOccupied = 300;
   voxelize(scene, grid, Coverage::Thin, tight, [&](const Volume& volume) {
     const int64_t all = std::ranges::count(volume.readOccupied(), uint8_t{1});
