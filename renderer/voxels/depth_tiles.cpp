@@ -21,7 +21,8 @@ void DepthTiles::run(const std::vector<DepthView>& views) const {
     views[i].depth->bindTexture(kViewDepthsUnit);
     tiles_[i].bindImage(kDepthTilesImage, gl::Access::Write);
     program_.use();
-    glDispatchCompute(static_cast<GLuint>(tiles_[i].sizePx().x), static_cast<GLuint>(tiles_[i].sizePx().y), 1);
+    glDispatchCompute(static_cast<GLuint>(tiles_[i].sizePx().x), static_cast<GLuint>(tiles_[i].sizePx().y),
+                      1);
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

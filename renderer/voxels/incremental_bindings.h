@@ -23,13 +23,13 @@ const int kBrickWords = 64;
 const int kBrickLanes = 256;  // of its group
 const int kSampleGroup = 64;
 
-const uint kSampledBitsImage = 0u;     // as kVoxelBitsImage
-const uint kSampledNormalImage = 3u;   // rgba16f
+const uint kSampledBitsImage = 0u;    // as kVoxelBitsImage
+const uint kSampledNormalImage = 3u;  // rgba16f
 const uint kSampledAlbedoImage = 4u;
 const uint kSampledLightImage = 5u;
 
-// Sums of the samples in a touched voxel: their number; normal (3, signed), albedo (3); then for each view the
-// number of its samples and their light (3).
+// Sums of the samples in a touched voxel: their number; normal (3, signed), albedo (3); then for each view
+// the number of its samples and their light (3).
 const uint kSampleWords = 7u;
 const uint kSampleViewWords = 4u;
 const uint kSampleSumsBuffer = 6u;
@@ -43,8 +43,8 @@ struct SampleCounts {  // std430; of one step
   uint tested;         // bricks
   uint padding0, padding1;
 };
-// The state's buffer: two of these, used in turn; then the keys of a hash table of touched voxels, 0 where a place is free:
-// this bit, and 10 bits each of where the voxel is stored.
+// The state's buffer: two of these, used in turn; then the keys of a hash table of touched voxels, 0 where a
+// place is free: this bit, and 10 bits each of where the voxel is stored.
 const uint kSampleKey = 0x80000000u;
 #ifdef __cplusplus
 static_assert(sizeof(SampleCounts) == 32);

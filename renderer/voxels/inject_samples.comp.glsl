@@ -2,6 +2,7 @@
 // Fills the voxels that samples lie in, and adds the attributes of samples to the sums of their voxels, as whole numbers, so that
 // their order does not matter. A sample an invocation, a view a layer of groups. Sums are in a hash table: which place of it is a
 // voxel's depends on the order of execution; what comes of it does not.
+#include "renderer/frame/frame_bindings.h"
 #include "renderer/voxels/seen_samples.glsl"
 #ifdef ATTRIBUTES
 #include "renderer/voxels/seen_surface.glsl"

@@ -102,8 +102,8 @@ void Injection::run(const frame::Frame& frame, const SampledVolume& volume,
     }
     program.use();
     const auto groups = static_cast<GLuint>((count + kSampleGroup - 1) / kSampleGroup);
-    glDispatchCompute(std::min(groups, kMostSampleGroups), (groups + kMostSampleGroups - 1) / kMostSampleGroups,
-                      static_cast<GLuint>(layers));
+    glDispatchCompute(std::min(groups, kMostSampleGroups),
+                      (groups + kMostSampleGroups - 1) / kMostSampleGroups, static_cast<GLuint>(layers));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
   };

@@ -85,7 +85,8 @@ std::vector<uint8_t> SampledVolume::readOccupied() const {
   for (v.z = 0; v.z < grid_.resolution.z; ++v.z)
     for (v.y = 0; v.y < grid_.resolution.y; ++v.y)
       for (v.x = 0; v.x < grid_.resolution.x; ++v.x)
-        out[static_cast<size_t>(grid_.indexOf(v))] = stored[static_cast<size_t>(grid_.indexOf(storedVoxel(v)))];
+        out[static_cast<size_t>(grid_.indexOf(v))] =
+            stored[static_cast<size_t>(grid_.indexOf(storedVoxel(v)))];
   return out;
 }
 

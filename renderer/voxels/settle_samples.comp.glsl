@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attributes of touched voxels from their sums, which are emptied, as is the table that these are in: a place an invocation. Light is what the camera's samples show, which holds that of
-// all lights; where there are none, the sum over the lights of what their samples show (Gaitatzes 2012, section 7.5).
+// Attributes of touched voxels from their sums, which are emptied, as is the table that these are in: a place an invocation.
+// Light is what the camera's samples show, which holds that of all lights; where there are none, the sum over the lights of what
+// their samples show (Gaitatzes 2012, section 7.5).
 #include "renderer/voxels/incremental_bindings.h"
 
 layout(local_size_x = kSampleGroup) in;

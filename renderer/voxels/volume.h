@@ -51,8 +51,8 @@ class Volume {
   void unite(const Volume& other) const;
   /// After the last bit and before the first sum: places for sums, with VoxelSums::Occupied.
   void numberOccupied() const;
-  /// Attachments from the sums, in occupied voxels alone; with `base`, which has the same grid and attributes,
-  /// was united with this one and keeps its sums, as if all had entered one volume.
+  /// Attachments from the sums, in occupied voxels alone; with `base`, which has the same grid and
+  /// attributes, was united with this one and keeps its sums, as if all had entered one volume.
   void finish(const Volume* base = nullptr) const;
 
   /// Uniforms and textures of volume.glsl, in a program that is compiled with defines().

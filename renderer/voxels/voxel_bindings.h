@@ -8,14 +8,14 @@
 namespace limen::voxels {
 #endif
 
-// Voxelizer: an invocation sets up a triangle, and the group shares the columns of all of its triangles. What has more
-// than kVoxelizeAlone columns is queued in parts of kVoxelizePart.
+// Voxelizer: an invocation sets up a triangle, and the group shares the columns of all of its triangles. What
+// has more than kVoxelizeAlone columns is queued in parts of kVoxelizePart.
 const int kVoxelizeGroup = 64;
 const int kVoxelizeAlone = 24;
 const int kVoxelizePart = 256;
 const uint kVoxelBitsImage = 0u;  // r32ui array: bit x % 32 of texel (x / 32, y, z)
-// Of the scene's storage buffers these use positions, indices, materials and the triangles' materials, and leave 6
-// and 7 to the tree of rays.
+// Of the scene's storage buffers these use positions, indices, materials and the triangles' materials, and
+// leave 6 and 7 to the tree of rays.
 const uint kVoxelSumsBuffer = 3u;
 const uint kVoxelQueueBuffer = 4u;
 struct VoxelQueueHeader {  // std430; then uvec2: triangle, first column of the part

@@ -28,7 +28,10 @@ gl::Buffer queueFor(uint32_t capacity) {
 
 Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into, const VoxelLamps& lamps,
                      uint32_t queueCapacity)
-    : context_(frame.context()), lamps_(lamps), queueCapacity_(queueCapacity), queue_(queueFor(queueCapacity)) {
+    : context_(frame.context()),
+      lamps_(lamps),
+      queueCapacity_(queueCapacity),
+      queue_(queueFor(queueCapacity)) {
   const VolumeAttributes& attributes = into.attributes();
   assert(!attributes.any() || into.sums());
   gl::ShaderDefines defines;

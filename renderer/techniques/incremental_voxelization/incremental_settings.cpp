@@ -9,14 +9,9 @@ const SettingsTable<CubeAroundCamera>& CubeAroundCamera::table() {
   using S = CubeAroundCamera;
   static const SettingsTable<S> kTable = {
       {&S::extent, "extent", {0.01, 4.0}, "", "Side of the cube as a share of the scene's diagonal"},
-      {&S::step,
-       "step",
-       {1, 256},
-       "voxels",
-       "The cube moves by multiples of this"},
+      {&S::step, "step", {1, 256}, "voxels", "The cube moves by multiples of this"},
       {&S::move, "move", "What becomes of voxels when the cube moves", "Gaitatzes 2012, section 7.9 (empty)"},
-      {&S::sway, "sway",
-       "The cube moves by a step and back from frame to frame, to time what a move costs",
+      {&S::sway, "sway", "The cube moves by a step and back from frame to frame, to time what a move costs",
        "Gaitatzes 2012, section 7.9"}};
   return kTable;
 }

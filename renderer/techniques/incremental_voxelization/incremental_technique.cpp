@@ -40,8 +40,8 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   const scene::Camera first =
       scene.camera.at(frame.timeS() - settings_.sequence.frames * settings_.sequence.stepS);
   const voxels::VoxelGrid grid = gridFor(scene, first, settings_.box, settings_.resolution);
-  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used,
-                  used * samplesPerView(), scrolls(settings_.box));
+  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used, used * samplesPerView(),
+                  scrolls(settings_.box));
   if (views == 2) {
     lightMap_.emplace(context, settings_.lightMap.resolution, frame::Raster::Auto);
     frame.passes().setBytesHeld(kLightMapPass, lightMap_->bytes());

@@ -24,7 +24,8 @@ struct SinglePassSettings {
         {&S::bias, "bias", "How far a voxel's middle may lie from what is seen there to be filled",
          "Gaitatzes 2012, section 7.4.1"},
         {&S::sky, "sky", "Pixels that see nothing see through voxels"},
-        {&S::bricks, "bricks", "How whole bricks of 32 x 8 x 8 voxels are decided at once; changes no voxel"}};
+        {&S::bricks, "bricks",
+         "How whole bricks of 32 x 8 x 8 voxels are decided at once; changes no voxel"}};
     return kTable;
   }
 };
@@ -58,7 +59,7 @@ class SinglePassTechnique : public IncrementalTechnique {
 
 const RegisteredTechnique<SinglePassTechnique> kSinglePassRegistered{
     {.name = "incremental_voxelization/single_pass",
-     .version = 1,
+     .version = 2,
      .summary = "Clean-up and injection in one: each voxel takes what depth images show at its middle",
      .source = "Gaitatzes 2012, section 7.4.3 (IV-08)",
      .product = ProductKind::Colour,

@@ -11,8 +11,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/moving_bricks.h"
+#include "renderer/techniques/incremental_voxelization/incremental_update.h"
 
 namespace limen::techniques {
 namespace {
@@ -62,26 +61,19 @@ class TwoStage : public IncrementalTechnique {
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    cleanUp_.emplace(frame.context(), settings_.cleanUp, volume, views, used,
-                     settings_.bricks == BrickDecision::Tiles ? viewSizesPx(frame, used)
-                                                              : std::vector<glm::ivec2>());
-    injection_.emplace(frame.context(), settings_.points, volume, views, used);
+    update_.emplace(frame.context(),
+                    IncrementalUpdate::Settings{.kept = settings_.cleanUp,
+                                                .points = settings_.points,
+                                                .tiledPx = settings_.bricks == BrickDecision::Tiles
+                                                               ? viewSizesPx(frame, used)
+                                                               : std::vector<glm::ivec2>()},
+                    volume, views, used);
     if (settings_.region == CleanUpRegion::Moving) bricks_.emplace(frame.scene(), volume.grid());
-    return cleanUp_->bytes() + (bricks_ ? bricks_->list().bytes() : 0);
+    return update_->bytes() + (bricks_ ? bricks_->list().bytes() : 0);
   }
   void update(const Step& step) override {
-    {
-      const auto scope = step.frame.passes().open("incremental_voxelization/clean_up");
-      const glm::dvec3 anchor = step.frame.gpuScene().anchor();
-      if (bricks_) {
-        cleanUp_->run(step.volume, step.views, anchor, bricks_->list(), bricks_->count());
-        bricks_->add(step.frame.timeS());
-      } else {
-        cleanUp_->run(step.volume, step.views, anchor);
-      }
-    }
-    const auto scope = step.frame.passes().open("incremental_voxelization/inject");
-    injection_->run(step.frame, step.volume, step.views, step.lighting, step.number);
+    update_->run(step.frame, step.volume, step.views, step.lighting, step.number,
+                 bricks_ ? &*bricks_ : nullptr);
   }
 
   void restarted(const voxels::VoxelGrid& grid) override {
@@ -91,13 +83,12 @@ class TwoStage : public IncrementalTechnique {
  private:
   TwoStageSettings settings_;
   std::optional<voxels::MovingBricks> bricks_;
-  std::optional<voxels::CleanUp> cleanUp_;
-  std::optional<voxels::Injection> injection_;
+  std::optional<IncrementalUpdate> update_;
 };
 
 const RegisteredTechnique<TwoStage> kTwoStageRegistered{
     {.name = "incremental_voxelization/two_stage",
-     .version = 1,
+     .version = 2,
      .summary =
          "Voxels kept from frame to frame: what depth images disprove is emptied, what they show is filled",
      .source = "Gaitatzes 2012, section 7.4 (IV-02 to IV-07)",

@@ -37,7 +37,8 @@ struct SumsOfOccupied {
 };
 struct SumsThatFit {
   static constexpr const char *kKind = "fitting",
-                              *kSummary = "all of the grid; occupied ones where these exceed a buffer or the budget";
+                              *kSummary =
+                                  "all of the grid; occupied ones where these exceed a buffer or the budget";
   double spare = 1.5;
   static const SettingsTable<SumsThatFit>& table() {
     static const SettingsTable<SumsThatFit> kTable = {
@@ -197,8 +198,8 @@ std::vector<Quantity> imageStoreQuantities() {
   std::vector<Quantity> out = VoxelTechnique::quantities();
   out.push_back({"rays_cut_short", "Invocations whose rays a software renderer cut short", "",
                  Direction::LowerIsBetter});
-  out.push_back({"voxels_without_sums", "Occupied voxels without attributes, as there was no room for sums", "",
-                 Direction::LowerIsBetter});
+  out.push_back({"voxels_without_sums", "Occupied voxels without attributes, as there was no room for sums",
+                 "", Direction::LowerIsBetter});
   out.push_back(
       {"resting_fills", "Times that the volume of what rests has been filled", "", Direction::LowerIsBetter});
   return out;
@@ -206,7 +207,7 @@ std::vector<Quantity> imageStoreQuantities() {
 
 const RegisteredTechnique<ImageStore> kImageStore{
     {.name = "voxelization/image_store",
-     .version = 2,
+     .version = 3,
      .summary = "Triangles into voxels by compute: no geometry shader, no cap, nothing to merge",
      .source = "Gaitatzes 2012, chapter 6 (VX-12, VX-13)",
      .product = ProductKind::Colour,

@@ -143,7 +143,8 @@ struct SliceSettings {
            "Cap on the vertices that the geometry shader emits for a triangle; slices beyond it are lost",
            "Gaitatzes 2012, Table 3"},
           {&S::coverage, "coverage",
-           "Which voxels a triangle fills: by conservative coverage a slice takes up to 7 vertices, 9 of a triangle "
+           "Which voxels a triangle fills: by conservative coverage a slice takes up to 7 vertices, 9 of a "
+           "triangle "
            "that is cut",
            "Gaitatzes 2012, section 6.4"},
           kAttributes,

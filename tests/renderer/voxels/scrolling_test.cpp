@@ -23,8 +23,10 @@ class ScrollingTest : public VoxelizerFixture {
   }
   static scene::Scene boxes() {
     scene::Scene scene;
-    scene::addPart(scene, "wall", scene::box({-1.9, -0.8, -1.9}, {2.9, 0.9, -1.7}), glm::vec3(0.5F, 0.2F, 0.7F));
-    scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}), glm::vec3(0.1F, 0.8F, 0.3F));
+    scene::addPart(scene, "wall", scene::box({-1.9, -0.8, -1.9}, {2.9, 0.9, -1.7}),
+                   glm::vec3(0.5F, 0.2F, 0.7F));
+    scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
+                   glm::vec3(0.1F, 0.8F, 0.3F));
     scene.lights = {scene::lightTowards({1.3, 1.1, 1.9}, {0.0, 0.1, -1.0}, glm::dvec2(0.2))};
     scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
     return scene;
@@ -55,7 +57,8 @@ TEST_F(ScrollingTest, WhatStaysInTheGridStaysInItsPlace) {
       for (v.y = 0; v.y < size.y; ++v.y)
         for (v.x = 0; v.x < size.x; ++v.x)
           if (start.contains(v + move))
-            next[static_cast<size_t>(start.indexOf(v))] = expected[static_cast<size_t>(start.indexOf(v + move))];
+            next[static_cast<size_t>(start.indexOf(v))] =
+                expected[static_cast<size_t>(start.indexOf(v + move))];
     ASSERT_EQ(volume.readOccupied(), next) << move.x << " " << move.y << " " << move.z;
     expected = next;
   }
@@ -101,16 +104,18 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
         for (v.x = 0; v.x < grid.resolution.x; ++v.x) {
           const glm::ivec3 stored = scrolled.storedVoxel(v);
           for (int c = 0; c < 4; ++c) {
-            ASSERT_EQ(albedos[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c), albedo.at(v.x, v.y, c));
-            ASSERT_EQ(normals[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c), normal.at(v.x, v.y, c));
+            ASSERT_EQ(albedos[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      albedo.at(v.x, v.y, c));
+            ASSERT_EQ(normals[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      normal.at(v.x, v.y, c));
           }
         }
     }
   }
 }
 
-// A clean-up, and a single pass, leave of a full grid that has scrolled what they leave of a full one made there, with
-// bricks decided by tiles or not.
+// A clean-up, and a single pass, leave of a full grid that has scrolled what they leave of a full one made
+// there, with bricks decided by tiles or not.
 TEST_F(ScrollingTest, ACleanUpLeavesWhatItLeavesInANewGrid) {
   const scene::Scene scene = boxes();
   const VoxelGrid start = smallGrid();

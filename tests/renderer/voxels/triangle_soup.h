@@ -34,7 +34,7 @@ inline scene::Scene soup(int64_t seed) {
 
 /// Voxels that only the mesh meets if it may lie off by `slack` voxels.
 inline int64_t beyond(const std::vector<uint8_t>& found, const scene::Mesh& mesh, const VoxelGrid& grid,
-               double slack) {
+                      double slack) {
   std::vector<uint8_t> explained(found.size());
   for (const glm::uvec3 triangle : mesh.triangles) {
     const glm::dvec3 at[3] = {grid.toVoxels(mesh.positions[triangle.x]),
