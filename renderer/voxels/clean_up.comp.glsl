@@ -4,16 +4,22 @@
 #include "renderer/voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.glsl"
 #ifdef FORGET
-bool isDisproved(ivec3 voxel) { return true; }
+#ifdef ENTERED  // what the grid did not hold before it moved by a number of voxels
+uniform int shiftX, shiftY, shiftZ;
+bool isDisproved(ivec3 voxel) { return !isInGrid(voxel + ivec3(shiftX, shiftY, shiftZ)); }
 #else
-#include "renderer/voxels/disproof.glsl"
+bool isDisproved(ivec3 voxel) { return true; }
+#endif
+const int kDisproofStays = 0, kDisproofSurface = 1, kDisproofCleared = 2;
+int disproofOfBrick(ivec3 first) { return kDisproofSurface; }
+#else
+#include "renderer/voxels/brick_disproof.glsl"
 #endif
 
-layout(local_size_x = kBrickWords) in;
+layout(local_size_x = kBrickLanes) in;
 layout(binding = kSampledBitsImage, r32ui) uniform uimage2DArray bitsImage;
 layout(std430, binding = kSampleStateBuffer) buffer State {
   SampleCounts sampleCounts[2];
-  uint sampleList[];
 };
 uniform int turn;
 #ifdef LISTED_BRICKS
@@ -48,18 +54,20 @@ void main() {
   const ivec3 first = ivec3(1, kBrickSide, kBrickSide) *
                       ivec3(brick % brickCountX, brick / brickCountX % brickCountY, brick / (brickCountX * brickCountY));
   const ivec3 texel = first + ivec3(0, lane % uint(kBrickSide), lane / uint(kBrickSide));
-  const bool isIn = texel.y < gridSizeY && texel.z < gridSizeZ;
+  const bool isIn = lane < uint(kBrickWords) && texel.y < gridSizeY && texel.z < gridSizeZ;
   const uint word = isIn ? imageLoad(bitsImage, texel).x : 0u;
-  words[lane] = word;
+  if (isIn) words[lane] = word;
   if (word != 0u) {
     uint at = atomicAdd(occupiedCount, uint(bitCount(word)));
     for (uint rest = word; rest != 0u; rest &= rest - 1u) occupied[at++] = 32u * lane + uint(findLSB(rest));
   }
   barrier();
-  for (uint i = lane; i < occupiedCount; i += uint(kBrickWords)) {
+  if (occupiedCount == 0u) return;
+  const int whole = disproofOfBrick(ivec3(32 * first.x, first.yz));
+  for (uint i = lane; i < occupiedCount && whole != kDisproofStays; i += uint(kBrickLanes)) {
     const uint at = occupied[i] / 32u, bit = occupied[i] % 32u;
     const ivec3 voxel = ivec3(32 * first.x + int(bit), first.yz + ivec2(at % uint(kBrickSide), at / uint(kBrickSide)));
-    if (!isDisproved(voxel)) continue;
+    if (whole != kDisproofCleared && !isDisproved(voxelStoredAt(voxel))) continue;
     atomicAnd(words[at], ~(1u << bit));
     atomicAdd(clearedCount, 1u);
 #ifdef ATTRIBUTES
@@ -69,10 +77,10 @@ void main() {
 #endif
   }
   barrier();
-  if (words[lane] != word) imageStore(bitsImage, texel, uvec4(words[lane]));
-  if (lane == 0u && occupiedCount > 0u) {
+  if (isIn && words[lane] != word) imageStore(bitsImage, texel, uvec4(words[lane]));
+  if (lane == 0u) {
     atomicAdd(sampleCounts[turn].kept, occupiedCount - clearedCount);
     if (clearedCount > 0u) atomicAdd(sampleCounts[turn].cleared, clearedCount);
-    atomicAdd(sampleCounts[turn].tested, 1u);
+    if (whole == kDisproofSurface) atomicAdd(sampleCounts[turn].tested, 1u);
   }
 }

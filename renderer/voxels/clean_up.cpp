@@ -63,8 +63,9 @@ void configureDisproof(const gl::Program& program, const CleanUpSettings& settin
 }
 
 gl::ShaderDefines disproofDefines(const CleanUpSettings& settings, const SampledVolume& volume, int views,
-                                  int used) {
+                                  int used, bool tiled) {
   gl::ShaderDefines defines = volume.defines();
+  if (tiled) defines["TILED"] = "1";
   defines["VIEWS"] = std::to_string(views);
   defines["USED_VIEWS"] = std::to_string(used);
   defineEnum(defines, "PROOF", settings.proof);
@@ -84,11 +85,15 @@ void dispatchBricks(const gl::Program& program, const VoxelGrid& grid, int brick
 }
 
 CleanUp::CleanUp(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume,
-                 int views, int used)
+                 int views, int used, const std::vector<glm::ivec2>& tiledPx)
     : settings_(settings),
-      everywhere_(context.programs().compute(kCleanUpShader, disproofDefines(settings, volume, views, used))),
+      everywhere_(context.programs().compute(
+          kCleanUpShader, disproofDefines(settings, volume, views, used, !tiledPx.empty()))),
       listed_(context.programs().compute(
-          kCleanUpShader, with(disproofDefines(settings, volume, views, used), "LISTED_BRICKS"))) {}
+          kCleanUpShader,
+          with(disproofDefines(settings, volume, views, used, !tiledPx.empty()), "LISTED_BRICKS"))) {
+  if (!tiledPx.empty()) tiles_.emplace(context, tiledPx);
+}
 
 void CleanUp::run(const SampledVolume& volume, const std::vector<DepthView>& views, glm::dvec3 anchor) const {
   const glm::ivec3 counts = brickCounts(volume.grid());
@@ -103,6 +108,10 @@ void CleanUp::run(const SampledVolume& volume, const std::vector<DepthView>& vie
 
 void CleanUp::dispatch(const gl::Program& program, const SampledVolume& volume,
                        const std::vector<DepthView>& views, glm::dvec3 anchor, int bricks) const {
+  if (tiles_) {
+    tiles_->run(views);
+    tiles_->bind();
+  }
   volume.bind(program);
   configureDisproof(program, settings_, views, volume.grid(), anchor);
   dispatchBricks(program, volume.grid(), bricks);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "experiments/base/enum_names.h"
 #include "experiments/base/settings_table.h"
+#include "renderer/voxels/depth_tiles.h"
 #include "renderer/voxels/depth_view.h"
 #include "renderer/voxels/sampled_volume.h"
 
@@ -57,18 +59,22 @@ struct CleanUpSettings {
 class CleanUp {
  public:
   /// `views`: bound to the shaders; `used` of them, the first, tell of voxels.
+  /// `tiledPx`: sizes of the used views, if tiles of their depths are to decide whole bricks first, which
+  /// changes no voxel; otherwise empty.
   CleanUp(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume, int views,
-          int used);
+          int used, const std::vector<glm::ivec2>& tiledPx = {});
   /// Opens no pass. Waits for nothing.
   void run(const SampledVolume& volume, const std::vector<DepthView>& views, glm::dvec3 anchor) const;
   /// Only in these bricks (brickCounts()).
   void run(const SampledVolume& volume, const std::vector<DepthView>& views, glm::dvec3 anchor,
            const gl::Buffer& bricks, int count) const;
+  int64_t bytes() const { return tiles_ ? tiles_->bytes() : 0; }
 
  private:
   void dispatch(const gl::Program& program, const SampledVolume& volume, const std::vector<DepthView>& views,
                 glm::dvec3 anchor, int bricks) const;
   CleanUpSettings settings_;
+  std::optional<DepthTiles> tiles_;
   const gl::Program &everywhere_, &listed_;
 };
 
@@ -88,7 +94,7 @@ glm::ivec3 brickCounts(const VoxelGrid& grid);
 void configureDisproof(const gl::Program& program, const CleanUpSettings& settings,
                        const std::vector<DepthView>& views, const VoxelGrid& grid, glm::dvec3 anchor);
 gl::ShaderDefines disproofDefines(const CleanUpSettings& settings, const SampledVolume& volume, int views,
-                                  int used);
+                                  int used, bool tiled = false);
 void dispatchBricks(const gl::Program& program, const VoxelGrid& grid, int bricks);
 
 }  // namespace limen::voxels

@@ -36,16 +36,18 @@ int disproofByView(int view, ivec3 voxel) {
   const ivec2 last = viewSizePx[view] - 1;
   const ivec2 low = clamp(ivec2(floor(place - reach)), ivec2(0), last), high = clamp(ivec2(floor(place + reach)), ivec2(0), last);
   const ivec2 steps = min(high - low, ivec2(kFootprintSteps));
-  for (int y = 0; y <= steps.y; ++y)
-    for (int x = 0; x <= steps.x; ++x) {
-      const int one = disproofOfPixel(view, low + ((high - low) * ivec2(x, y)) / max(steps, ivec2(1)), middle.z);
+  // Without leaving early, so that fetches wait for memory together; the last one is repeated where there are fewer.
+  bool stays = false;
+  for (int i = 0; i < (kFootprintSteps + 1) * (kFootprintSteps + 1); ++i) {
+    const ivec2 at = min(ivec2(i % (kFootprintSteps + 1), i / (kFootprintSteps + 1)), steps);
+    const int one = disproofOfPixel(view, low + ((high - low) * at) / max(steps, ivec2(1)), middle.z);
 #if PROOF == PROOF_FOOTPRINT
-      if (one != kDisproofCleared) return kDisproofStays;
+    stays = stays || one != kDisproofCleared;
 #else
-      if (one == kDisproofSurface) return kDisproofStays;
+    stays = stays || one == kDisproofSurface;
 #endif
-    }
-  return kDisproofCleared;
+  }
+  return stays ? kDisproofStays : kDisproofCleared;
 #endif
 }
 

@@ -3,11 +3,17 @@
 #include "renderer/voxels/volume_words.glsl"
 
 layout(binding = kVolumeEmptyBitsImage, r32ui) uniform writeonly uimage2DArray bitsImage;
+#ifdef NUMBERED
+layout(std430, binding = kVolumeOccupiedBuffer) buffer Occupied { uint occupiedCount; };
+#endif
 #ifdef UNITE
 layout(binding = kVolumeBaseBitsUnit) uniform usampler2DArray baseBits;
 #endif
 
 void main() {
+#ifdef NUMBERED
+  if (gl_WorkGroupID.xy == uvec2(0u) && gl_LocalInvocationIndex == 0u) occupiedCount = 0u;
+#endif
   const ivec3 texel = wordOf(gl_LocalInvocationIndex);
   if (!isWord(texel)) return;
 #ifdef UNITE

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Attachments of occupied voxels from their sums, which become 0 (BASE: with another volume's, which stay); or (ERASE) 0
 // in voxels that were occupied. A group lists the occupied voxels of its words and shares them.
+#include "renderer/voxels/voxel_slots.glsl"
 #include "renderer/voxels/volume_words.glsl"
 
 layout(std430, binding = kVoxelSumsBuffer) buffer Sums { uint voxelSums[]; };
 #ifdef BASE
 layout(std430, binding = kVolumeBaseSumsBuffer) readonly buffer BaseSums { uint baseSums[]; };
+#ifdef OCCUPIED_SUMS
+layout(binding = kVolumeBaseBitsUnit) uniform usampler2DArray baseBits;
+layout(binding = kVolumeBaseSlotsUnit) uniform usampler2DArray baseSlots;
+uniform uint baseCapacity;
+uint baseSlotOf(ivec3 voxel) {
+  const ivec3 texel = ivec3(voxel.x >> 5, voxel.yz);
+  return slotIn(texelFetch(baseBits, texel, 0).x, texelFetch(baseSlots, texel, 0).x, uint(voxel.x & 31), baseCapacity);
+}
+#else
+uint baseSlotOf(ivec3 voxel) { return slotOf(voxel); }
+#endif
 #endif
 uniform float sumSteps, lightSteps;
 #ifdef VOLUME_OCCUPANCY
@@ -54,14 +66,18 @@ void finishVoxel(ivec3 voxel) {
 #endif
 }
 #else
-uint takeSum(uint at) {
-  const uint sum = voxelSums[at];
-  voxelSums[at] = 0u;
+uint slot = kNoSlot, baseSlot = kNoSlot;  // of the voxel in hand
+
+uint takeSum(uint word) {
+  uint sum = 0u;
+  if (slot != kNoSlot) {
+    sum = voxelSums[SUMS * slot + word];
+    voxelSums[SUMS * slot + word] = 0u;
+  }
 #ifdef BASE
-  return sum + baseSums[at];
-#else
-  return sum;
+  if (baseSlot != kNoSlot) sum += baseSums[SUMS * baseSlot + word];
 #endif
+  return sum;
 }
 vec3 takeUnsigned(uint at, float scale) {
   const uint x = takeSum(at), y = takeSum(at + 1u), z = takeSum(at + 2u);
@@ -74,32 +90,35 @@ vec3 takeSigned(uint at, float scale) {
 vec4 takeLobe(uint at, float scale) { return vec4(scale * float(takeSum(at)), takeSigned(at + 1u, scale)); }
 
 void finishVoxel(ivec3 voxel) {
-  const uint first = SUMS * uint(voxel.x + gridSizeX * (voxel.y + gridSizeY * voxel.z));
-  const uint entries = takeSum(first);
+  slot = slotOf(voxel);
+#ifdef BASE
+  baseSlot = baseSlotOf(voxel);
+#endif
+  const uint entries = takeSum(0u);
   const float share = entries > 0u ? 1.0 / float(entries) : 0.0;
   const float scale = share / sumSteps, lightScale = share / lightSteps, one = entries > 0u ? 1.0 : 0.0;
 #ifdef SUM_OPACITY
-  const float opacity = scale * float(takeSum(first + SUM_OPACITY));
+  const float opacity = scale * float(takeSum(SUM_OPACITY));
 #endif
 #ifdef VOLUME_OCCUPANCY
   imageStore(occupancyImage, voxel, vec4(opacity, entries, 0.0, 0.0));
 #endif
 #ifdef VOLUME_ALBEDO
-  imageStore(albedoImage, voxel, vec4(takeUnsigned(first + SUM_ALBEDO, scale), one));
+  imageStore(albedoImage, voxel, vec4(takeUnsigned(SUM_ALBEDO, scale), one));
 #endif
 #ifdef VOLUME_NORMAL
-  imageStore(normalImage, voxel, vec4(takeSigned(first + SUM_NORMAL, scale), opacity));
+  imageStore(normalImage, voxel, vec4(takeSigned(SUM_NORMAL, scale), opacity));
 #endif
 #ifdef VOLUME_LIGHT
-  imageStore(lightImage, voxel, vec4(takeUnsigned(first + SUM_LIGHT, lightScale), one));
+  imageStore(lightImage, voxel, vec4(takeUnsigned(SUM_LIGHT, lightScale), one));
 #endif
 #ifdef VOLUME_SH_GREY
-  imageStore(shGreyImage, voxel, takeLobe(first + SUM_SH_GREY, lightScale));
+  imageStore(shGreyImage, voxel, takeLobe(SUM_SH_GREY, lightScale));
 #endif
 #ifdef VOLUME_SH_RED
-  imageStore(shRedImage, voxel, takeLobe(first + SUM_SH_RED, lightScale));
-  imageStore(shGreenImage, voxel, takeLobe(first + SUM_SH_GREEN, lightScale));
-  imageStore(shBlueImage, voxel, takeLobe(first + SUM_SH_BLUE, lightScale));
+  imageStore(shRedImage, voxel, takeLobe(SUM_SH_RED, lightScale));
+  imageStore(shGreenImage, voxel, takeLobe(SUM_SH_GREEN, lightScale));
+  imageStore(shBlueImage, voxel, takeLobe(SUM_SH_BLUE, lightScale));
 #endif
 }
 #endif

@@ -13,21 +13,23 @@ namespace limen::voxels {
 const int kMostDepthViews = 2;
 const uint kViewDepthsUnit = 0u;
 const uint kViewTrianglesUnit = 2u;
+const uint kViewTilesUnit = 4u;  // least and largest depth of each tile, kDepthTile px a side
+const int kDepthTile = 8;
+const uint kDepthTilesImage = 0u;
 
 // A brick is what one work group cleans up: words of 32 voxels along x, 8 x 8 of them.
 const int kBrickSide = 8;
 const int kBrickWords = 64;
+const int kBrickLanes = 256;  // of its group
 const int kSampleGroup = 64;
 
-const uint kSampledBitsImage = 0u;     // as kVoxelBitsImage
-const uint kTouchedBitsImage = 1u;     // voxels with samples in this step, the same way
-const uint kSlotsImage = 2u;           // r32ui, one a voxel: where its sums are
-const uint kSampledNormalImage = 3u;   // rgba16f
+const uint kSampledBitsImage = 0u;    // as kVoxelBitsImage
+const uint kSampledNormalImage = 3u;  // rgba16f
 const uint kSampledAlbedoImage = 4u;
 const uint kSampledLightImage = 5u;
 
-// Sums of the samples in a touched voxel: their number; normal (3, signed), albedo (3); then for each view the
-// number of its samples and their light (3).
+// Sums of the samples in a touched voxel: their number; normal (3, signed), albedo (3); then for each view
+// the number of its samples and their light (3).
 const uint kSampleWords = 7u;
 const uint kSampleViewWords = 4u;
 const uint kSampleSumsBuffer = 6u;
@@ -41,7 +43,9 @@ struct SampleCounts {  // std430; of one step
   uint tested;         // bricks
   uint padding0, padding1;
 };
-// The state's buffer: two of these, used in turn; then a touched voxel a word, or a brick a word.
+// The state's buffer: two of these, used in turn; then the keys of a hash table of touched voxels, 0 where a
+// place is free: this bit, and 10 bits each of where the voxel is stored.
+const uint kSampleKey = 0x80000000u;
 #ifdef __cplusplus
 static_assert(sizeof(SampleCounts) == 32);
 #endif

@@ -21,6 +21,8 @@ gl::ShaderDefines samplingDefines(const PointSettings& settings, const SampledVo
   return defines;
 }
 
+constexpr GLuint kMostSampleGroups = 65535;
+
 /// Units in 1 of sums of as many samples as there may be, all in one voxel: they stay below 2^30.
 float unitsFor(int64_t samples, double largest) {
   const int bits = std::bit_width(static_cast<uint64_t>(std::max<int64_t>(samples, 1)));
@@ -80,48 +82,39 @@ Injection::Injection(gl::Context& context, const PointSettings& settings, const 
                      int views, int used)
     : settings_(settings),
       used_(used),
-      mark_(context.programs().compute("renderer/voxels/mark_samples.comp.glsl",
-                                       samplingDefines(settings, volume, views, used))) {
-  if (!volume.hasAttributes()) return;
-  const gl::ShaderDefines defines = samplingDefines(settings, volume, views, used);
-  add_ = &context.programs().compute("renderer/voxels/add_samples.comp.glsl", defines);
-  settle_ = &context.programs().compute("renderer/voxels/settle_samples.comp.glsl", defines);
-}
-
-void Injection::dispatch(const gl::Program& program) const {
-  program.use();
-  const int64_t groups = (settings_.perStep() + kSampleGroup - 1) / kSampleGroup;
-  glDispatchCompute(static_cast<GLuint>(groups), 1, static_cast<GLuint>(used_));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                  GL_SHADER_STORAGE_BARRIER_BIT);
+      inject_(context.programs().compute("renderer/voxels/inject_samples.comp.glsl",
+                                         samplingDefines(settings, volume, views, used))) {
+  if (volume.hasAttributes())
+    settle_ = &context.programs().compute("renderer/voxels/settle_samples.comp.glsl",
+                                          samplingDefines(settings, volume, views, used));
 }
 
 void Injection::run(const frame::Frame& frame, const SampledVolume& volume,
                     const std::vector<DepthView>& views, const SampleLighting& lighting, int step) const {
-  const glm::dvec3 anchor = frame.gpuScene().anchor();
-  volume.bind(mark_);
-  configureViews(mark_, views, volume.grid(), anchor);
-  configurePoints(mark_, settings_, step);
-  dispatch(mark_);
-  if (!add_) return;
   const int64_t samples = settings_.perStep() * used_;
   const float units = unitsFor(samples, 1.0), lightUnits = unitsFor(samples, lighting.brightest);
-  volume.bind(*add_);
-  configureViews(*add_, views, volume.grid(), anchor);
-  configurePoints(*add_, settings_, step);
-  configureSampleLights(*add_, frame, lighting);
-  volume.sums().bindStorage(kSampleSumsBuffer);
-  add_->set("sampleScale", units);
-  add_->set("lightScale", lightUnits);
-  dispatch(*add_);
+  const auto dispatch = [&](const gl::Program& program, int64_t count, int layers) {
+    if (volume.hasAttributes()) {
+      volume.sums().bindStorage(kSampleSumsBuffer);
+      program.set("placeMask", volume.places() - 1);
+      program.set("sampleScale", units);
+      program.set("lightScale", lightUnits);
+    }
+    program.use();
+    const auto groups = static_cast<GLuint>((count + kSampleGroup - 1) / kSampleGroup);
+    glDispatchCompute(std::min(groups, kMostSampleGroups),
+                      (groups + kMostSampleGroups - 1) / kMostSampleGroups, static_cast<GLuint>(layers));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT);
+  };
+  volume.bind(inject_);
+  configureViews(inject_, views, volume.grid(), frame.gpuScene().anchor());
+  configurePoints(inject_, settings_, step);
+  if (volume.hasAttributes()) configureSampleLights(inject_, frame, lighting);
+  dispatch(inject_, settings_.perStep(), used_);
+  if (!settle_) return;
   volume.bind(*settle_);
-  settle_->set("sampleScale", units);
-  settle_->set("lightScale", lightUnits);
-  settle_->use();
-  const int64_t groups = (samples + kSampleGroup - 1) / kSampleGroup;
-  glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                  GL_SHADER_STORAGE_BARRIER_BIT);
+  dispatch(*settle_, volume.places(), 1);
 }
 
 }  // namespace limen::voxels

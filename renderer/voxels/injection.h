@@ -52,8 +52,8 @@ class Injection {
   void dispatch(const gl::Program& program) const;
   PointSettings settings_;
   int used_;
-  const gl::Program& mark_;
-  const gl::Program *add_ = nullptr, *settle_ = nullptr;
+  const gl::Program& inject_;
+  const gl::Program* settle_ = nullptr;
 };
 
 /// Uniforms of shaders that include seen_samples.glsl, which are compiled with pointDefines(); a step's

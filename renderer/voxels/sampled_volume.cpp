@@ -1,31 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/voxels/sampled_volume.h"
 
+#include <algorithm>
+#include <bit>
+
+#include "renderer/voxels/clean_up.h"
+
 namespace limen::voxels {
 namespace {
 
 constexpr int64_t kStateHeader = 2 * int64_t{sizeof(SampleCounts)};
 
+/// Twice as many as voxels with samples may be, so that few look for theirs for long.
+uint32_t placesFor(bool attributes, const VoxelGrid& grid, int64_t samples) {
+  if (!attributes) return 1;
+  return static_cast<uint32_t>(
+      std::bit_ceil(static_cast<uint64_t>(2 * std::max<int64_t>(std::min(samples, grid.count()), 1))));
+}
+
 }  // namespace
 
 SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes,
-                             int views, int64_t samples)
+                             int views, int64_t samples, bool scrolls)
     : grid_(grid),
       anchor_(anchor),
       occupancy_(context, grid, anchor),
-      state_(kStateHeader + 4 * samples, nullptr) {
+      places_(placesFor(attributes, grid, samples)),
+      state_(kStateHeader + 4 * int64_t{places_}, nullptr) {
   const glm::ivec3 size = grid.resolution;
   if (attributes) {
     const auto layers = [&](gl::Format format) { return gl::Texture(format, glm::ivec2(size), 1, size.z); };
     const int64_t words = int64_t{kSampleWords} + int64_t{kSampleViewWords} * views;
     attributes_.emplace(Attributes{layers(gl::Format::RGBA16F), layers(gl::Format::RGBA16F),
-                                   layers(gl::Format::RGBA16F),
-                                   gl::Texture(gl::Format::R32UI, occupancy_.bits().sizePx(), 1, size.z),
-                                   layers(gl::Format::R32UI), gl::Buffer(4 * words * samples, nullptr)});
+                                   layers(gl::Format::RGBA16F), gl::Buffer(4 * words * places_, nullptr)});
     attributes_->sums.clearUint(0);
-    attributes_->touched.clearUint(glm::uvec4(0));
   }
   state_.clearUint(0);
+  if (scrolls) {
+    entered_ = &context.programs().compute("renderer/voxels/clean_up.comp.glsl", [&] {
+      gl::ShaderDefines defines = this->defines();
+      defines["TOROIDAL"] = defines["FORGET"] = defines["ENTERED"] = "1";
+      return defines;
+    }());
+  }
   clear();
 }
 
@@ -33,7 +50,7 @@ int64_t SampledVolume::bytes() const {
   int64_t sum = occupancy_.bytes() + state_.bytes();
   if (attributes_)
     sum += attributes_->normal.bytes() + attributes_->albedo.bytes() + attributes_->light.bytes() +
-           attributes_->touched.bytes() + attributes_->slots.bytes() + attributes_->sums.bytes();
+           attributes_->sums.bytes();
   return sum;
 }
 
@@ -45,13 +62,41 @@ void SampledVolume::clear() const {
 }
 
 void SampledVolume::moveTo(glm::dvec3 origin) {
+  const glm::dvec3 voxels = glm::round((origin - grid_.origin) / grid_.voxelSize);
   grid_.origin = origin;
-  clear();
+  if (!scrolls() || glm::any(glm::greaterThanEqual(glm::abs(voxels), glm::dvec3(grid_.resolution)))) {
+    clear();
+    return;
+  }
+  const glm::ivec3 shift(voxels), size = grid_.resolution;
+  wrap_ = ((wrap_ + shift) % size + size) % size;
+  bind(*entered_);
+  entered_->set("shiftX", shift.x);
+  entered_->set("shiftY", shift.y);
+  entered_->set("shiftZ", shift.z);
+  const glm::ivec3 counts = brickCounts(grid_);
+  dispatchBricks(*entered_, grid_, counts.x * counts.y * counts.z);
+}
+
+std::vector<uint8_t> SampledVolume::readOccupied() const {
+  const std::vector<uint8_t> stored = occupancy_.readOccupied();
+  std::vector<uint8_t> out(stored.size());
+  glm::ivec3 v;
+  for (v.z = 0; v.z < grid_.resolution.z; ++v.z)
+    for (v.y = 0; v.y < grid_.resolution.y; ++v.y)
+      for (v.x = 0; v.x < grid_.resolution.x; ++v.x)
+        out[static_cast<size_t>(grid_.indexOf(v))] =
+            stored[static_cast<size_t>(grid_.indexOf(storedVoxel(v)))];
+  return out;
 }
 
 void SampledVolume::configure(const gl::Program& program) const {
   occupancy_.configure(program);
   program.set("gridOrigin", glm::vec3(grid_.origin - anchor_));
+  if (!scrolls()) return;
+  program.set("wrapX", wrap_.x);
+  program.set("wrapY", wrap_.y);
+  program.set("wrapZ", wrap_.z);
 }
 
 void SampledVolume::bind(const gl::Program& program) const {
@@ -60,8 +105,6 @@ void SampledVolume::bind(const gl::Program& program) const {
   occupancy_.bits().bindImage(kSampledBitsImage, gl::Access::ReadWrite);
   state_.bindStorage(kSampleStateBuffer);
   if (!attributes_) return;
-  attributes_->touched.bindImage(kTouchedBitsImage, gl::Access::ReadWrite);
-  attributes_->slots.bindImage(kSlotsImage, gl::Access::ReadWrite);
   attributes_->normal.bindImage(kSampledNormalImage, gl::Access::Write);
   attributes_->albedo.bindImage(kSampledAlbedoImage, gl::Access::Write);
   attributes_->light.bindImage(kSampledLightImage, gl::Access::Write);
@@ -70,6 +113,7 @@ void SampledVolume::bind(const gl::Program& program) const {
 gl::ShaderDefines SampledVolume::defines() const {
   gl::ShaderDefines defines;
   if (attributes_) defines["ATTRIBUTES"] = "1";
+  if (scrolls()) defines["TOROIDAL"] = "1";
   return defines;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "renderer/gl/context.h"
 #include "renderer/voxels/incremental_bindings.h"
@@ -14,15 +16,21 @@ namespace limen::voxels {
 class SampledVolume {
  public:
   /// Samples of one step at most. `views`: that give samples. Starts empty. Throws Error if the device
-  /// cannot hold it.
+  /// cannot hold it. `scrolls`: voxels stay as the grid moves, as far as they are still in it.
   SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes, int views,
-                int64_t samples);
+                int64_t samples, bool scrolls = false);
 
   /// Whether a surface was found. The volume itself configures programs, as its grid may have moved.
   const Volume& occupancy() const { return occupancy_; }
   const VoxelGrid& grid() const { return grid_; }
-  /// Another place for the grid; empties the volume.
+  /// Another place for the grid, a whole number of voxels off if it scrolls. Empties the volume, or, if it
+  /// scrolls, those voxels that were not in the grid: nothing is copied, as the grid's places wrap around.
   void moveTo(glm::dvec3 origin);
+  bool scrolls() const { return entered_ != nullptr; }
+  /// Texel of textures, and bit of occupancy(), of a voxel.
+  glm::ivec3 storedVoxel(glm::ivec3 voxel) const { return (voxel + wrap_) % grid_.resolution; }
+  /// As Volume::readOccupied(), in the grid's order.
+  std::vector<uint8_t> readOccupied() const;
   bool hasAttributes() const { return attributes_.has_value(); }
   /// RGBA16F arrays, alpha 1 where there is a surface, all 0 elsewhere. Only if asked for: mean normal,
   /// turned to the viewers and not of unit length;
@@ -46,18 +54,23 @@ class SampledVolume {
   void bind(const gl::Program& program) const;
   /// What they are compiled with.
   gl::ShaderDefines defines() const;
-  const gl::Buffer& sums() const { return attributes_->sums; }  ///< only with attributes
+  /// Only with attributes: sums of touched voxels, and how many places there are for them, a power of 2.
+  const gl::Buffer& sums() const { return attributes_->sums; }
+  uint32_t places() const { return places_; }
 
  private:
   struct Attributes {
-    gl::Texture normal, albedo, light, touched, slots;
+    gl::Texture normal, albedo, light;
     gl::Buffer sums;
   };
   VoxelGrid grid_;
   glm::dvec3 anchor_;
   Volume occupancy_;
   std::optional<Attributes> attributes_;
+  uint32_t places_;
   gl::Buffer state_;
+  glm::ivec3 wrap_{0};  // where voxel (0, 0, 0) is stored
+  const gl::Program* entered_ = nullptr;
   int turn_ = 0;
 };
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attributes of touched voxels from their sums, which are emptied. Light is what the camera's samples show, which holds that of
-// all lights; where there are none, the sum over the lights of what their samples show (Gaitatzes 2012, section 7.5).
+// Attributes of touched voxels from their sums, which are emptied, as is the table that these are in: a place an invocation.
+// Light is what the camera's samples show, which holds that of all lights; where there are none, the sum over the lights of what
+// their samples show (Gaitatzes 2012, section 7.5).
 #include "renderer/voxels/incremental_bindings.h"
 
 layout(local_size_x = kSampleGroup) in;
-layout(binding = kTouchedBitsImage, r32ui) uniform uimage2DArray touchedImage;
 layout(binding = kSampledNormalImage, rgba16f) uniform writeonly image2DArray normalImage;
 layout(binding = kSampledAlbedoImage, rgba16f) uniform writeonly image2DArray albedoImage;
 layout(binding = kSampledLightImage, rgba16f) uniform writeonly image2DArray lightImage;
 layout(std430, binding = kSampleSumsBuffer) buffer Sums { uint sampleSums[]; };
-layout(std430, binding = kSampleStateBuffer) readonly buffer State {
+layout(std430, binding = kSampleStateBuffer) buffer State {
   SampleCounts sampleCounts[2];
-  uint sampleList[];
+  uint sampleKeys[];
 };
-uniform int turn;
+uniform uint placeMask;
 uniform float sampleScale, lightScale;
 
 vec3 signedSum(uint first) {
@@ -21,10 +21,13 @@ vec3 signedSum(uint first) {
 }
 
 void main() {
-  const uint slot = gl_GlobalInvocationID.x;
-  if (slot >= sampleCounts[turn].touched) return;
-  const uint packed_ = sampleList[slot], words = kSampleWords + kSampleViewWords * uint(USED_VIEWS), first = words * slot;
-  const ivec3 voxel = ivec3(packed_ & 1023u, packed_ >> 10 & 1023u, packed_ >> 20);
+  const uint place = uint(kSampleGroup) * (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y) + gl_LocalInvocationIndex;
+  if (place > placeMask) return;
+  const uint key = sampleKeys[place];
+  if (key == 0u) return;
+  sampleKeys[place] = 0u;
+  const uint words = kSampleWords + kSampleViewWords * uint(USED_VIEWS), first = words * place;
+  const ivec3 voxel = ivec3(key & 1023u, key >> 10 & 1023u, key >> 20 & 1023u);
   const float each = 1.0 / float(sampleSums[first]);
   imageStore(normalImage, voxel, vec4(each / sampleScale * signedSum(first + 1u), 1.0));
   imageStore(albedoImage, voxel, vec4(each / sampleScale * signedSum(first + 4u), 1.0));
@@ -36,5 +39,4 @@ void main() {
   }
   imageStore(lightImage, voxel, vec4(light, 1.0));
   for (uint i = 0u; i < words; ++i) sampleSums[first + i] = 0u;
-  imageAtomicAnd(touchedImage, ivec3(voxel.x >> 5, voxel.yz), ~(1u << (voxel.x & 31)));
 }

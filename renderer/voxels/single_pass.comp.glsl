@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clean-up and injection in one (Gaitatzes 2012, section 7.4.3): a voxel whose middle lies within the bias of the surface that a
-// view sees there is filled with what that pixel shows; one before it is emptied; one behind it stays. A brick a group, a row of
-// 32 voxels half of its invocations.
+// view sees there is filled with what that pixel shows; one before it is emptied; one behind it stays. A brick a group, which
+// first finds what becomes of each voxel and then shares those among its invocations that take attributes.
 #include "renderer/frame/frame_bindings.h"
-#include "renderer/voxels/disproof.glsl"
+#include "renderer/voxels/brick_disproof.glsl"
 #ifdef ATTRIBUTES
 #include "renderer/voxels/seen_surface.glsl"
 #endif
 
-layout(local_size_x = kBrickWords) in;
+layout(local_size_x = kBrickLanes) in;
 layout(binding = kSampledBitsImage, r32ui) uniform uimage2DArray bitsImage;
 layout(std430, binding = kSampleStateBuffer) buffer State {
   SampleCounts sampleCounts[2];
-  uint sampleList[];
 };
 uniform int turn, brickCount, brickCountX, brickCountY;
 #ifdef ATTRIBUTES
@@ -23,40 +22,51 @@ layout(binding = kSampledLightImage, rgba16f) uniform writeonly image2DArray lig
 
 shared uint words[kBrickWords];
 shared uint keptCount, clearedCount, addedCount;
+#ifdef ATTRIBUTES
+shared uint seenCount;
+shared uint seen[32 * kBrickWords];  // voxel of the brick, and 2^16 times the view that sees it
+#endif
 
 #ifdef ATTRIBUTES
-void update(ivec3 voxel, int view) {
+// `stored`: where the voxel is stored.
+void update(ivec3 stored, int view) {
+  const ivec3 voxel = voxelStoredAt(stored);
   const vec2 place = viewPlace(view, toView(view, vec3(voxel) + 0.5));
   const ivec2 pixel = ivec2(place);
   const vec3 at = (voxelsFromView[view] * vec4(viewNear[view] / depthAt(view, pixel) * viewRay(view, pixel), 1.0)).xyz;
   const SeenSurface surface = surfaceOf(view, pixel, at);
-  imageStore(normalImage, voxel, vec4(surface.normal, 1.0));
-  imageStore(albedoImage, voxel, vec4(surface.albedo, 1.0));
-  imageStore(lightImage, voxel, vec4(surface.light, 1.0));
+  imageStore(normalImage, stored, vec4(surface.normal, 1.0));
+  imageStore(albedoImage, stored, vec4(surface.albedo, 1.0));
+  imageStore(lightImage, stored, vec4(surface.light, 1.0));
 }
 #endif
 
-// What a voxel becomes.
-bool isFilled(ivec3 voxel, bool before) {
-  int by = -1;
+#ifdef ATTRIBUTES
+void erase(ivec3 voxel) {
+  imageStore(normalImage, voxel, vec4(0.0));
+  imageStore(albedoImage, voxel, vec4(0.0));
+  imageStore(lightImage, voxel, vec4(0.0));
+}
+#endif
+
+// What a voxel becomes; `by`: the view that sees it, or -1.
+bool isFilled(ivec3 voxel, bool before, out int by) {
+  by = -1;
   for (int view = 0; view < USED_VIEWS; ++view) {
     const int found = disproofByView(view, voxel);
     if (found == kDisproofCleared) {
-#ifdef ATTRIBUTES
-      if (before) {
-        imageStore(normalImage, voxel, vec4(0.0));
-        imageStore(albedoImage, voxel, vec4(0.0));
-        imageStore(lightImage, voxel, vec4(0.0));
-      }
-#endif
+      by = -1;
       return false;
     }
     if (found == kDisproofSurface && by < 0) by = view;
   }
-#ifdef ATTRIBUTES
-  if (by >= 0) update(voxel, by);
-#endif
   return before || by >= 0;
+}
+
+// Voxel `number` of the brick that begins with `first`.
+ivec3 voxelIn(ivec3 first, uint number) {
+  const uint at = number / 32u;
+  return ivec3(32 * first.x + int(number % 32u), first.yz + ivec2(at % uint(kBrickSide), at / uint(kBrickSide)));
 }
 
 void main() {
@@ -64,6 +74,9 @@ void main() {
   const int brick = int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
   if (lane == 0u) {
     keptCount = clearedCount = addedCount = 0u;
+#ifdef ATTRIBUTES
+    seenCount = 0u;
+#endif
     if (brick == 0) sampleCounts[1 - turn] = SampleCounts(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
   }
   barrier();
@@ -71,27 +84,47 @@ void main() {
   const ivec3 first = ivec3(1, kBrickSide, kBrickSide) *
                       ivec3(brick % brickCountX, brick / brickCountX % brickCountY, brick / (brickCountX * brickCountY));
   const ivec3 texel = first + ivec3(0, lane % uint(kBrickSide), lane / uint(kBrickSide));
-  const bool isIn = texel.y < gridSizeY && texel.z < gridSizeZ;
+  const bool isIn = lane < uint(kBrickWords) && texel.y < gridSizeY && texel.z < gridSizeZ;
   const uint word = isIn ? imageLoad(bitsImage, texel).x : 0u;
-  words[lane] = word;
+  if (lane < uint(kBrickWords)) words[lane] = word;
+  if (word != 0u) atomicAdd(keptCount, uint(bitCount(word)));
   barrier();
-  for (uint i = lane; i < 32u * uint(kBrickWords); i += uint(kBrickWords)) {
-    const uint at = i / 32u, bit = i % 32u;
-    const ivec3 voxel = ivec3(32 * first.x + int(bit), first.yz + ivec2(at % uint(kBrickSide), at / uint(kBrickSide)));
+  const int whole = disproofOfBrick(ivec3(32 * first.x, first.yz));
+  const uint before = keptCount;
+  barrier();
+  // A brick without surface is done, unless something in it has to go.
+  if (whole == kDisproofStays || (whole == kDisproofCleared && before == 0u)) {
+    if (lane == 0u && before > 0u) atomicAdd(sampleCounts[turn].kept, before);
+    return;
+  }
+  for (uint i = lane; i < 32u * uint(kBrickWords); i += uint(kBrickLanes)) {
+    const ivec3 voxel = voxelIn(first, i);
     if (!isInGrid(voxel)) continue;
-    const bool before = (words[at] >> bit & 1u) != 0u, after = isFilled(voxel, before);
-    if (before && after) atomicAdd(keptCount, 1u);
-    if (before && !after) atomicAnd(words[at], ~(1u << bit));
-    if (!before && after) atomicOr(words[at], 1u << bit);
-    if (before && !after) atomicAdd(clearedCount, 1u);
-    if (!before && after) atomicAdd(addedCount, 1u);
+    const uint at = i / 32u, bit = i % 32u;
+    int by = -1;
+    const bool was = (words[at] >> bit & 1u) != 0u, is = whole != kDisproofCleared && isFilled(voxelStoredAt(voxel), was, by);
+#ifdef ATTRIBUTES
+    if (was && !is) erase(voxel);
+    if (by >= 0) seen[atomicAdd(seenCount, 1u)] = i | uint(by) << 16;
+#endif
+    if (was && !is) {
+      atomicAnd(words[at], ~(1u << bit));
+      atomicAdd(clearedCount, 1u);
+    }
+    if (!was && is) {
+      atomicOr(words[at], 1u << bit);
+      atomicAdd(addedCount, 1u);
+    }
   }
   barrier();
-  if (words[lane] != word) imageStore(bitsImage, texel, uvec4(words[lane]));
+#ifdef ATTRIBUTES
+  for (uint i = lane; i < seenCount; i += uint(kBrickLanes)) update(voxelIn(first, seen[i] & 0xffffu), int(seen[i] >> 16));
+#endif
+  if (isIn && words[lane] != word) imageStore(bitsImage, texel, uvec4(words[lane]));
   if (lane == 0u) {
-    if (keptCount > 0u) atomicAdd(sampleCounts[turn].kept, keptCount);
+    if (before > clearedCount) atomicAdd(sampleCounts[turn].kept, before - clearedCount);
     if (clearedCount > 0u) atomicAdd(sampleCounts[turn].cleared, clearedCount);
     if (addedCount > 0u) atomicAdd(sampleCounts[turn].added, addedCount);
-    atomicAdd(sampleCounts[turn].tested, 1u);
+    if (whole == kDisproofSurface) atomicAdd(sampleCounts[turn].tested, 1u);
   }
 }

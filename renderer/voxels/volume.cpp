@@ -30,14 +30,31 @@ constexpr AttachmentPlace kPlaces[kVoxelAttributes] = {
     {"VOLUME_SH_GREEN", "SUM_SH_GREEN", kVolumeShGreenUnit, kVolumeShGreenImage},
     {"VOLUME_SH_BLUE", "SUM_SH_BLUE", kVolumeShBlueUnit, kVolumeShBlueImage}};
 
+/// Voxels with sums.
+int64_t slotsOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
+  if (!attributes.any() || !attributes.summed) return 0;
+  return attributes.sumsOccupied() && attributes.mostOccupied > 0
+             ? std::min(attributes.mostOccupied, grid.count())
+             : grid.count();
+}
+
+int64_t sumBytesOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
+  return slotsOf(grid, attributes) * SumLayout(attributes).words * 4;
+}
+
 int64_t bytesOf(const VoxelGrid& grid, const VolumeAttributes& attributes) {
   const int64_t bits = int64_t{(grid.resolution.x + 31) / 32} * grid.resolution.y * grid.resolution.z * 4;
-  const int64_t sums =
-      attributes.any() && attributes.summed ? grid.count() * SumLayout(attributes).words * 4 : 0;
-  return bits + sums + grid.count() * attributes.bitsPerVoxel() / 8;
+  const int64_t attachments = attributes.joined ? 0 : grid.count() * attributes.bitsPerVoxel() / 8;
+  return (attributes.sumsOccupied() ? 2 : 1) * bits + sumBytesOf(grid, attributes) + attachments;
 }
 
 std::string mebibytes(int64_t bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
+
+int64_t mostBufferBytes() {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  return most;
+}
 
 /// The attributes in a format within their budget.
 VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
@@ -52,15 +69,12 @@ VolumeAttributes fitting(const VoxelGrid& grid, VolumeAttributes attributes) {
     throw Error(what + " takes " + mebibytes(bytes) + ", more than its budget of " +
                     mebibytes(attributes.budgetBytes),
                 {}, "choose a lower resolution, fewer attributes or 16-bit floats, or raise the budget");
-  if (attributes.any() && attributes.summed) {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    const int64_t sums = grid.count() * SumLayout(attributes).words * 4;
-    if (sums > most)
-      throw Error(what + " needs sums of " + mebibytes(sums) + "; this device's shaders reach " +
-                      mebibytes(most) + " of a buffer",
-                  {}, "choose a lower resolution or fewer attributes");
-  }
+  const int64_t most = mostBufferBytes();
+  const int64_t sums = sumBytesOf(grid, attributes);
+  if (sums > most)
+    throw Error(what + " needs sums of " + mebibytes(sums) + "; this device's shaders reach " +
+                    mebibytes(most) + " of a buffer",
+                {}, "choose a lower resolution, fewer attributes or sums of occupied voxels");
   return attributes;
 }
 
@@ -76,7 +90,7 @@ Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
       unite_(&context.programs().compute("renderer/voxels/empty_bits.comp.glsl", {{"UNITE", "1"}})) {
   const glm::ivec3 size = grid.resolution;
   for (const auto& [attribute, name] : enumNames(VoxelAttribute{}).entries) {
-    if (!attributes_.has(attribute)) continue;
+    if (!attributes_.has(attribute) || attributes_.joined) continue;
     auto& attachment = attachments_[static_cast<size_t>(attribute)];
     attachment.emplace(attributes_.format, glm::ivec2(size), 1, size.z);
     attachment->clear(glm::vec4(0.0F));
@@ -85,6 +99,7 @@ Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
   if (!attributes_.any()) return;
   gl::ShaderDefines own = defines();
   own.merge(sumDefines());
+  assert(attributes_.summed || !attributes_.joined);
   const auto program = [&](const char* define) {
     gl::ShaderDefines with = own;
     if (define) with[define] = "1";
@@ -92,10 +107,25 @@ Volume::Volume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor,
   };
   erase_ = program("ERASE");
   if (!attributes_.summed) return;
-  sums_.emplace(grid.count() * SumLayout(attributes_).words * 4, nullptr);
+  sums_.emplace(sumBytesOf(grid_, attributes_), nullptr);
   sums_->clearUint(0);
+  if (attributes_.sumsOccupied()) {
+    empty_ = &context.programs().compute("renderer/voxels/empty_bits.comp.glsl", {{"NUMBERED", "1"}});
+    number_ = &context.programs().compute("renderer/voxels/number_occupied.comp.glsl");
+    slots_.emplace(gl::Format::R32UI, bits_.sizePx(), 1, size.z);
+    slots_->clearUint(glm::uvec4(0));
+    occupied_.emplace(int64_t{16}, nullptr);
+    occupied_->clearUint(0);
+  }
+  if (attributes_.joined) return;
   finish_ = program(nullptr);
   finishWith_ = program("BASE");
+}
+
+bool fitSumsOfAll(const VoxelGrid& grid, VolumeAttributes attributes) {
+  attributes.sums = VoxelSums::All;
+  return sumBytesOf(grid, attributes) <= mostBufferBytes() &&
+         bytesOf(grid, attributes) <= attributes.budgetBytes;
 }
 
 int64_t Volume::bytes() const { return bytesOf(grid_, attributes_); }
@@ -117,33 +147,52 @@ void Volume::dispatchWords(const gl::Program& program) const {
 }
 
 void Volume::clear() const {
-  if (erase_) {
+  if (attributes_.joined) {
+    sums_->clearUint(0);
+  } else if (erase_) {
     bindAttachments();
     dispatchWords(*erase_);
   }
+  if (occupied_) occupied_->bindStorage(kVolumeOccupiedBuffer);
   bits_.bindImage(kVolumeEmptyBitsImage, gl::Access::Write);
   dispatchWords(*empty_);
 }
 
-void Volume::finish() const {
-  if (!finish_) return;
-  sums_->bindStorage(kVoxelSumsBuffer);
-  bindAttachments();
-  configureSums(*finish_);
-  dispatchWords(*finish_);
-}
-
-void Volume::finishWith(const Volume& base) const {
-  assert(base.grid_.resolution == grid_.resolution && base.attributes_.count() == attributes_.count());
-  base.bits_.bindTexture(kVolumeBaseBitsUnit);
+void Volume::unite(const Volume& other) const {
+  assert(other.grid_.resolution == grid_.resolution);
+  other.bits_.bindTexture(kVolumeBaseBitsUnit);
   bits_.bindImage(kVolumeEmptyBitsImage, gl::Access::Write);
   dispatchWords(*unite_);
-  if (!finishWith_) return;
+}
+
+void Volume::numberOccupied() const {
+  if (!number_) return;
+  slots_->bindImage(kVolumeSlotsImage, gl::Access::Write);
+  occupied_->bindStorage(kVolumeOccupiedBuffer);
+  dispatchWords(*number_);
+}
+
+void Volume::finish(const Volume* base) const {
+  if (!finish_) return;
+  const gl::Program& program = base ? *finishWith_ : *finish_;
   sums_->bindStorage(kVoxelSumsBuffer);
-  base.sums_->bindStorage(kVolumeBaseSumsBuffer);
+  if (base) {
+    assert(base->attributes_.count() == attributes_.count() && base->attributes_.sums == attributes_.sums);
+    base->sums_->bindStorage(kVolumeBaseSumsBuffer);
+    if (base->slots_) {
+      base->bits_.bindTexture(kVolumeBaseBitsUnit);
+      base->slots_->bindTexture(kVolumeBaseSlotsUnit);
+      program.set("baseCapacity", static_cast<uint32_t>(slotsOf(base->grid_, base->attributes_)));
+    }
+  }
   bindAttachments();
-  configureSums(*finishWith_);
-  dispatchWords(*finishWith_);
+  configureSums(program);
+  dispatchWords(program);
+}
+
+int64_t Volume::withoutSums() const {
+  if (!occupied_) return 0;
+  return std::max<int64_t>(occupied_->read<uint32_t>(0, 1)[0] - slotsOf(grid_, attributes_), 0);
 }
 
 double Volume::sumSteps() const {
@@ -156,8 +205,8 @@ double Volume::lightSteps() const { return sumSteps() / (1.0234 * attributes_.la
 
 gl::ShaderDefines Volume::defines() const {
   gl::ShaderDefines defines;
-  for (size_t i = 0; i < kVoxelAttributes; ++i)
-    if (attachments_[i]) defines[kPlaces[i].define] = "1";
+  for (const auto& entry : enumNames(VoxelAttribute{}).entries)
+    if (attributes_.has(entry.value)) defines[kPlaces[static_cast<size_t>(entry.value)].define] = "1";
   return defines;
 }
 
@@ -169,6 +218,7 @@ gl::ShaderDefines Volume::sumDefines() const {
   if (layout.opacity >= 0) defines["SUM_OPACITY"] = std::to_string(layout.opacity) + "u";
   for (size_t i = 0; i < kVoxelAttributes; ++i)
     if (layout.first[i] >= 0) defines[kPlaces[i].sum] = std::to_string(layout.first[i]) + "u";
+  if (attributes_.sumsOccupied()) defines["OCCUPIED_SUMS"] = "1";
   defines["VOLUME_FORMAT"] = attributes_.format == gl::Format::RGBA32F ? "rgba32f" : "rgba16f";
   return defines;
 }
@@ -176,6 +226,9 @@ gl::ShaderDefines Volume::sumDefines() const {
 void Volume::configureSums(const gl::Program& program) const {
   program.set("sumSteps", static_cast<float>(sumSteps()));
   program.set("lightSteps", static_cast<float>(lightSteps()));
+  if (!slots_) return;
+  slots_->bindTexture(kVolumeSlotsUnit);
+  program.set("slotCapacity", static_cast<uint32_t>(slotsOf(grid_, attributes_)));
 }
 
 void Volume::configure(const gl::Program& program) const {

@@ -34,7 +34,24 @@ vec3 toVoxels(vec3 position) { return (position - gridOrigin) / voxelSize; }
 
 bool isInGrid(ivec3 voxel) { return all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, gridSize())); }
 
+// A volume that scrolls (TOROIDAL) keeps voxels where they are while its grid moves; what leaves on one side enters on the other.
+#ifdef TOROIDAL
+uniform int wrapX, wrapY, wrapZ;  // where voxel (0, 0, 0) is stored
+ivec3 storedVoxel(ivec3 voxel) {
+  const ivec3 at = voxel + ivec3(wrapX, wrapY, wrapZ);
+  return at - gridSize() * ivec3(greaterThanEqual(at, gridSize()));
+}
+ivec3 voxelStoredAt(ivec3 at) {
+  const ivec3 voxel = at - ivec3(wrapX, wrapY, wrapZ);
+  return voxel + gridSize() * ivec3(lessThan(voxel, ivec3(0)));
+}
+#else
+ivec3 storedVoxel(ivec3 voxel) { return voxel; }
+ivec3 voxelStoredAt(ivec3 at) { return at; }
+#endif
+
 bool isOccupied(ivec3 voxel) {
   if (!isInGrid(voxel)) return false;
-  return ((texelFetch(volumeBits, ivec3(voxel.x >> 5, voxel.yz), 0).x >> (voxel.x & 31)) & 1u) != 0u;
+  const ivec3 at = storedVoxel(voxel);
+  return ((texelFetch(volumeBits, ivec3(at.x >> 5, at.yz), 0).x >> (at.x & 31)) & 1u) != 0u;
 }

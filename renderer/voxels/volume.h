@@ -44,11 +44,16 @@ class Volume {
   void clear() const;
   /// For sums of attributes (SumLayout); null without these, or if not asked for. All 0 after finish().
   const gl::Buffer* sums() const { return sums_ ? &*sums_ : nullptr; }
-  /// Attachments from the sums, in occupied voxels alone.
-  void finish() const;
-  /// The same, of this volume and of `base`, which has the same grid and attributes and keeps its sums: the
-  /// union of both, as if all had entered one volume. The bits become the union's.
-  void finishWith(const Volume& base) const;
+  /// Occupied voxels that sums have no room for: they have no attributes (VolumeAttributes::mostOccupied).
+  /// Waits for the GPU.
+  int64_t withoutSums() const;
+  /// Adds another's bits, of the same grid.
+  void unite(const Volume& other) const;
+  /// After the last bit and before the first sum: places for sums, with VoxelSums::Occupied.
+  void numberOccupied() const;
+  /// Attachments from the sums, in occupied voxels alone; with `base`, which has the same grid and
+  /// attributes, was united with this one and keeps its sums, as if all had entered one volume.
+  void finish(const Volume* base = nullptr) const;
 
   /// Uniforms and textures of volume.glsl, in a program that is compiled with defines().
   void configure(const gl::Program& program) const;
@@ -76,8 +81,13 @@ class Volume {
   VolumeAttributes attributes_;
   gl::Texture bits_;
   std::array<std::optional<gl::Texture>, kVoxelAttributes> attachments_;
-  std::optional<gl::Buffer> sums_;
-  const gl::Program *empty_, *unite_, *erase_ = nullptr, *finish_ = nullptr, *finishWith_ = nullptr;
+  std::optional<gl::Buffer> sums_, occupied_;
+  std::optional<gl::Texture> slots_;
+  const gl::Program *empty_, *unite_, *erase_ = nullptr, *number_ = nullptr, *finish_ = nullptr,
+                                      *finishWith_ = nullptr;
 };
+
+/// Whether sums of all voxels fit into the device's buffers, and into the budget.
+bool fitSumsOfAll(const VoxelGrid& grid, VolumeAttributes attributes);
 
 }  // namespace limen::voxels

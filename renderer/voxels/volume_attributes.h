@@ -36,6 +36,15 @@ constexpr EnumNames<VoxelAttribute, 8> enumNames(VoxelAttribute) {
             {VoxelAttribute::ShBlue, "sh_blue"}}}};
 }
 
+/// Which voxels have sums while a volume is filled.
+enum class VoxelSums {
+  Occupied,  ///< occupied ones, numbered once all bits are known: triangles are gone through twice
+  All        ///< all of the grid
+};
+constexpr EnumNames<VoxelSums, 2> enumNames(VoxelSums) {
+  return {{{{VoxelSums::Occupied, "occupied"}, {VoxelSums::All, "all"}}}};
+}
+
 /// What voxels hold besides whether a surface meets them.
 struct VolumeAttributes {
   bool albedo = false;
@@ -54,11 +63,15 @@ struct VolumeAttributes {
   /// Bytes that the volume may hold. Beyond it an Error, or, with `mayHalve`, RGBA16F in place of RGBA32F.
   int64_t budgetBytes = int64_t{4} << 30;
   bool mayHalve = false;
+  VoxelSums sums = VoxelSums::All;
+  int64_t mostOccupied = 0;  ///< that VoxelSums::Occupied has room for; 0: as many as the grid has
+  bool joined = false;       ///< bits and sums alone, for Volume::finishWith() of another
 
   bool has(VoxelAttribute attribute) const;
   bool any() const { return count() > 0; }
   bool lit() const { return light || shGrey || shColour; }
   int count() const;  ///< attachments
+  bool sumsOccupied() const { return any() && summed && sums == VoxelSums::Occupied; }
   int bitsPerVoxel() const { return count() * 8 * gl::bytesPerTexel(format); }
 };
 

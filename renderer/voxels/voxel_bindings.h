@@ -8,14 +8,14 @@
 namespace limen::voxels {
 #endif
 
-// Voxelizer: an invocation sets up a triangle, and the group shares the columns of all of its triangles. What has more
-// than kVoxelizeAlone columns is queued in parts of kVoxelizePart.
+// Voxelizer: an invocation sets up a triangle, and the group shares the columns of all of its triangles. What
+// has more than kVoxelizeAlone columns is queued in parts of kVoxelizePart.
 const int kVoxelizeGroup = 64;
 const int kVoxelizeAlone = 24;
 const int kVoxelizePart = 256;
 const uint kVoxelBitsImage = 0u;  // r32ui array: bit x % 32 of texel (x / 32, y, z)
-// Of the scene's storage buffers these use positions, indices, materials and the triangles' materials, and leave 6
-// and 7 to the tree of rays.
+// Of the scene's storage buffers these use positions, indices, materials and the triangles' materials, and
+// leave 6 and 7 to the tree of rays.
 const uint kVoxelSumsBuffer = 3u;
 const uint kVoxelQueueBuffer = 4u;
 struct VoxelQueueHeader {  // std430; then uvec2: triangle, first column of the part
@@ -29,6 +29,7 @@ static_assert(sizeof(VoxelQueueHeader) == 16);
 const int kVoxelLamps = 8;
 
 // Volume, as volume.glsl reads it: usampler2DArray and sampler2DArray.
+const uint kVolumeSlotsUnit = 6u;  // usampler2DArray, as the bits: number of a word's first occupied voxel
 const uint kVolumeShBlueUnit = 7u;
 const uint kVolumeShGreenUnit = 8u;
 const uint kVolumeShRedUnit = 9u;
@@ -50,7 +51,10 @@ const uint kVolumeShRedImage = 5u;
 const uint kVolumeShGreenImage = 6u;
 const uint kVolumeShBlueImage = 7u;
 const uint kVolumeEmptyBitsImage = 0u;
+const uint kVolumeSlotsImage = 0u;
+const uint kVolumeOccupiedBuffer = 3u;  // number of occupied voxels
 const uint kVolumeBaseBitsUnit = 0u;
+const uint kVolumeBaseSlotsUnit = 1u;
 const uint kVolumeBaseSumsBuffer = 5u;
 
 // Rounding that shaders allow for, in voxels: positions of up to 1024 voxels, kept as floats relative to the

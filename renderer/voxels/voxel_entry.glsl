@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a triangle adds to the sums of a voxel that it enters. See VoxelAttribute.
+#include "renderer/voxels/voxel_slots.glsl"
 #include "renderer/voxels/voxel_surface.glsl"
 #include "renderer/voxels/voxel_triangle.glsl"
 
@@ -19,7 +20,9 @@ void addLobe(uint at, float front, float back, vec3 normal) {
 
 // `place`: a point of the triangle, in voxels.
 void addEntry(ivec3 voxel, vec3 place, uint id, VoxelTriangle t) {
-  const uint first = SUMS * uint(voxel.x + gridSizeX * (voxel.y + gridSizeY * voxel.z));
+  const uint slot = slotOf(voxel);
+  if (slot == kNoSlot) return;
+  const uint first = SUMS * slot;
   const SurfaceMaterial material = surfaceMaterials[surfaceMaterialOf[id]];
   const vec3 unit = t.reach > 0.0 ? normalize(t.normal / t.reach) : vec3(0.0);
   atomicAdd(voxelSums[first], 1u);

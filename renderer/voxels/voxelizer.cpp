@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstddef>
 
@@ -16,15 +17,6 @@ namespace {
 /// are threads of a CPU.
 constexpr GLuint kQueueGroups = 2112, kSoftwareQueueGroups = 32;
 constexpr GLuint kMostGroupsInRow = 65535;
-
-gl::ShaderDefines voxelizerDefines(const frame::Frame& frame, Coverage coverage, const Volume& into,
-                                   const VoxelLamps& lamps) {
-  gl::ShaderDefines defines = into.defines();
-  defines.merge(into.sumDefines());
-  defines.merge(surfaceDefines(frame, into.attributes(), lamps));
-  defineEnum(defines, "COVERAGE", coverage);
-  return defines;
-}
 
 gl::Buffer queueFor(uint32_t capacity) {
   gl::Buffer queue(int64_t{sizeof(VoxelQueueHeader)} + int64_t{capacity} * 8, nullptr);
@@ -39,59 +31,90 @@ Voxelizer::Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into,
     : context_(frame.context()),
       lamps_(lamps),
       queueCapacity_(queueCapacity),
-      alone_(context_.programs().compute("renderer/voxels/voxelize.comp.glsl",
-                                         voxelizerDefines(frame, coverage, into, lamps))),
-      queued_(context_.programs().compute("renderer/voxels/voxelize_queued.comp.glsl",
-                                          voxelizerDefines(frame, coverage, into, lamps))),
       queue_(queueFor(queueCapacity)) {
-  assert(!into.attributes().any() || into.sums());
+  const VolumeAttributes& attributes = into.attributes();
+  assert(!attributes.any() || into.sums());
+  gl::ShaderDefines defines;
+  defineEnum(defines, "COVERAGE", coverage);
+  if (!attributes.any() || attributes.sumsOccupied()) bits_ = passFor(defines, false);
+  if (!attributes.any()) return;
+  defines.merge(into.defines());
+  defines.merge(into.sumDefines());
+  defines.merge(surfaceDefines(frame, attributes, lamps));
+  sums_ = passFor(defines, true);
 }
 
-void Voxelizer::run(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree) const {
+Voxelizer::Pass Voxelizer::passFor(const gl::ShaderDefines& defines, bool sums) const {
+  gl::ProgramCache& programs = context_.programs();
+  return {&programs.compute("renderer/voxels/voxelize.comp.glsl", defines),
+          &programs.compute("renderer/voxels/voxelize_queued.comp.glsl", defines), sums};
+}
+
+void Voxelizer::run(frame::Frame& frame, const Volume& into, const VoxelizedPart& part) const {
+  gather(frame, into, part);
+  into.finish(part.base);
+}
+
+void Voxelizer::gather(frame::Frame& frame, const Volume& into, const VoxelizedPart& part) const {
   into.clear();
-  add(frame, into, tree);
-  into.finish();
+  if (bits_) run(*bits_, frame, into, part);
+  if (part.base && bits_) into.unite(*part.base);
+  into.numberOccupied();
+  if (sums_) run(*sums_, frame, into, part);
+  if (part.base && !bits_) into.unite(*part.base);
 }
 
-void Voxelizer::configure(const gl::Program& program, frame::Frame& frame, const Volume& into,
-                          const ray_tracing::RayTree* tree) const {
+void Voxelizer::configure(const gl::Program& program, const Pass& pass, frame::Frame& frame,
+                          const Volume& into, const ray_tracing::RayTree* tree) const {
   into.configure(program);
   program.set("queueCapacity", queueCapacity_);
   program.set("queueTurn", turn_);
-  if (!into.sums()) return;
+  if (!pass.sums) return;
   into.configureSums(program);
   configureSurfaces(program, frame, into.attributes(), lamps_, tree);
 }
 
-void Voxelizer::add(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree,
-                    TriangleSpan span) const {
-  const uint32_t end = std::min(frame.gpuScene().triangleCount(), span.end);
-  if (span.first >= end) return;
+void Voxelizer::run(const Pass& pass, frame::Frame& frame, const Volume& into,
+                    const VoxelizedPart& part) const {
   frame.gpuScene().bindStorage(&frame.positions());
-  if (into.sums()) {
+  if (pass.sums) {
     frame.bindSurfaces();
     into.sums()->bindStorage(kVoxelSumsBuffer);
   }
   queue_.bindStorage(kVoxelQueueBuffer);
   into.bits().bindImage(kVoxelBitsImage, gl::Access::ReadWrite);
-  configure(alone_, frame, into, tree);
-  alone_.set("firstTriangle", span.first);
-  alone_.set("triangleCount", end);
-  alone_.use();
-  const GLuint groups = (end - span.first + kVoxelizeGroup - 1) / kVoxelizeGroup;
-  const GLuint rows = (groups + kMostGroupsInRow - 1) / kMostGroupsInRow;
-  glDispatchCompute((groups + rows - 1) / rows, rows, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  configure(queued_, frame, into, tree);
-  queued_.use();
-  glDispatchCompute(context_.device().software ? kSoftwareQueueGroups : kQueueGroups, 1, 1);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                  GL_SHADER_STORAGE_BARRIER_BIT);
-  turn_ = 1 - turn_;
+  for (const TriangleSpan& span : part.spans) {
+    const uint32_t end = std::min(frame.gpuScene().triangleCount(), span.end);
+    if (span.first >= end) continue;
+    configure(*pass.alone, pass, frame, into, part.tree);
+    pass.alone->set("firstTriangle", span.first);
+    pass.alone->set("triangleCount", end);
+    pass.alone->use();
+    const GLuint groups = (end - span.first + kVoxelizeGroup - 1) / kVoxelizeGroup;
+    const GLuint rows = (groups + kMostGroupsInRow - 1) / kMostGroupsInRow;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    configure(*pass.queued, pass, frame, into, part.tree);
+    pass.queued->use();
+    glDispatchCompute(context_.device().software ? kSoftwareQueueGroups : kQueueGroups, 1, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT);
+    turn_ = 1 - turn_;
+  }
 }
 
 uint32_t Voxelizer::cutShort() const {
   return queue_.read<uint32_t>(offsetof(VoxelQueueHeader, cutShort), 1)[0];
+}
+
+int64_t countOccupied(frame::Frame& frame, const VoxelGrid& grid, Coverage coverage) {
+  const Volume volume(frame.context(), grid, frame.gpuScene().anchor());
+  Voxelizer(frame, coverage, volume).run(frame, volume);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  int64_t count = 0;
+  for (int z = 0; z < grid.resolution.z; ++z)
+    for (const uint32_t word : volume.bits().readUintLayer(z)) count += std::popcount(word);
+  return count;
 }
 
 }  // namespace limen::voxels

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "experiments/base/enum_names.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
@@ -24,9 +27,15 @@ constexpr EnumNames<Coverage, 3> enumNames(Coverage) {
             {Coverage::Conservative, "conservative"}}}};
 }
 
-/// Which of the scene's triangles enter.
+/// Some of the scene's triangles.
 struct TriangleSpan {
   uint32_t first = 0, end = 0xffffffffU;
+};
+/// What enters a volume.
+struct VoxelizedPart {
+  std::vector<TriangleSpan> spans = {{}};
+  const ray_tracing::RayTree* tree = nullptr;  ///< that shadows are cast by; null: of the scene at rest
+  const Volume* base = nullptr;  ///< all that is in it as well: filled by gather(), with the same grid
 };
 
 /// Fills a volume with the finest triangles of a frame's scene, where its parts are at the frame's time: no
@@ -39,12 +48,10 @@ class Voxelizer {
   /// takes them alone.
   Voxelizer(frame::Frame& frame, Coverage coverage, const Volume& into, const VoxelLamps& lamps = {},
             uint32_t queueCapacity = 65536);
-  /// Empties the volume and fills it. Dispatches; nothing waits. Opens no pass. `tree`: that shadows are cast
-  /// by; null: the one that the scene keeps, of its triangles at rest.
-  void run(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr) const;
-  /// Fills without emptying, and without finishing the attributes.
-  void add(frame::Frame& frame, const Volume& into, const ray_tracing::RayTree* tree = nullptr,
-           TriangleSpan span = {}) const;
+  /// Empties the volume and fills it. Dispatches; nothing waits. Opens no pass.
+  void run(frame::Frame& frame, const Volume& into, const VoxelizedPart& part = {}) const;
+  /// The same but for attachments, which are left to be made of the sums.
+  void gather(frame::Frame& frame, const Volume& into, const VoxelizedPart& part = {}) const;
 
   /// Invocations so far whose rays were cut short by a software renderer's limit: not 0, light is wrong.
   /// Waits for the GPU.
@@ -52,15 +59,24 @@ class Voxelizer {
   int64_t bytes() const { return queue_.bytes(); }
 
  private:
-  void configure(const gl::Program& program, frame::Frame& frame, const Volume& into,
+  struct Pass {
+    const gl::Program *alone, *queued;
+    bool sums;
+  };
+  Pass passFor(const gl::ShaderDefines& defines, bool sums) const;
+  void configure(const gl::Program& program, const Pass& pass, frame::Frame& frame, const Volume& into,
                  const ray_tracing::RayTree* tree) const;
+  void run(const Pass& pass, frame::Frame& frame, const Volume& into, const VoxelizedPart& part) const;
 
   gl::Context& context_;
   VoxelLamps lamps_;
   uint32_t queueCapacity_;
-  const gl::Program &alone_, &queued_;
+  std::optional<Pass> bits_, sums_;  // the second sets bits as well, if there is no first
   gl::Buffer queue_;
   mutable int turn_ = 0;
 };
+
+/// Voxels of a grid that a frame's scene occupies. For preparation: allocates, and waits for the GPU.
+int64_t countOccupied(frame::Frame& frame, const VoxelGrid& grid, Coverage coverage);
 
 }  // namespace limen::voxels

@@ -67,7 +67,7 @@ std::vector<uint8_t> IncrementalTechnique::oncePresent(const frame::Frame& frame
 std::vector<Counter> IncrementalTechnique::count(frame::Frame& frame) {
   const voxels::VoxelGrid& grid = volume_->grid();
   const scene::Mesh mesh = meshAt(frame.scene(), frame.timeS());
-  const std::vector<uint8_t> found = volume_->occupancy().readOccupied();
+  const std::vector<uint8_t> found = volume_->readOccupied();
   const std::vector<uint8_t> exact = voxels::exactVoxels(mesh, grid, kSampleSlack);
   const voxels::Volume full(frame.context(), grid, frame.gpuScene().anchor());
   voxels::Voxelizer(frame, voxels::Coverage::Thin, full).run(frame, full);
@@ -85,6 +85,7 @@ std::vector<Counter> IncrementalTechnique::count(frame::Frame& frame) {
       {"extra_voxels", double(voxels::compare(found, exact).extra)},
       {"stale_voxels", double(stale)},
       {"restarts", double(restarts_)},
+      {"scrolls", double(scrolls_)},
       {"hausdorff_largest", percent(own.largest(), diagonal)},
       {"hausdorff_mean", percent(own.mean(), diagonal)},
       {"hausdorff_rms", percent(own.rms(), diagonal)},
@@ -120,7 +121,8 @@ std::vector<Quantity> IncrementalTechnique::quantities() {
           {"samples", "Samples of the last frame within the grid", "", neither},
           {"samples_per_voxel", "Samples of a voxel that has any", "", lower, "Gaitatzes 2012, section 7.7"},
           {"tested_bricks", "Bricks with occupied voxels that were tested", "", lower},
-          {"restarts", "Times that the grid moved", "", lower, "Gaitatzes 2012, section 7.9"},
+          {"restarts", "Times that the grid moved and was emptied", "", lower, "Gaitatzes 2012, section 7.9"},
+          {"scrolls", "Times that the grid moved and kept what was still in it", "", neither},
           {"hausdorff_largest", "Hausdorff distance", "% of diagonal", lower, table},
           {"hausdorff_mean", "Mean distance, the larger of both directions", "% of diagonal", lower, table},
           {"hausdorff_rms", "RMS distance, the larger of both directions", "% of diagonal", lower, table},

@@ -9,11 +9,10 @@ const SettingsTable<CubeAroundCamera>& CubeAroundCamera::table() {
   using S = CubeAroundCamera;
   static const SettingsTable<S> kTable = {
       {&S::extent, "extent", {0.01, 4.0}, "", "Side of the cube as a share of the scene's diagonal"},
-      {&S::step,
-       "step",
-       {1, 256},
-       "voxels",
-       "The cube moves by multiples of this; where it moves, it is emptied"}};
+      {&S::step, "step", {1, 256}, "voxels", "The cube moves by multiples of this"},
+      {&S::move, "move", "What becomes of voxels when the cube moves", "Gaitatzes 2012, section 7.9 (empty)"},
+      {&S::sway, "sway", "The cube moves by a step and back from frame to frame, to time what a move costs",
+       "Gaitatzes 2012, section 7.9"}};
   return kTable;
 }
 
@@ -62,6 +61,11 @@ const SettingsTable<IncrementalSettings>& IncrementalSettings::table() {
       {&S::lightMap, "light_map", "Depth image from the middle of the scene's first light"},
       {&S::sequence, "sequence", "Frames before the picture"}};
   return kTable;
+}
+
+bool scrolls(const IncrementalBox& box) {
+  const auto* around = std::get_if<CubeAroundCamera>(&box);
+  return around && around->move == BoxMove::Scroll;
 }
 
 voxels::VoxelGrid gridFor(const scene::Scene& scene, const scene::Camera& camera, const IncrementalBox& box,

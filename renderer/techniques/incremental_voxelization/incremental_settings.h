@@ -16,14 +16,27 @@ struct IncrementalBoxOfScene {
 struct IncrementalBoxOfCasters {
   static constexpr const char *kKind = "casters", *kSummary = "what casts shadows";
 };
+/// What becomes of voxels where a box moves.
+enum class BoxMove {
+  Empty,  ///< all are emptied
+  Scroll  ///< those stay that are still in it
+};
+constexpr EnumNames<BoxMove, 2> enumNames(BoxMove) {
+  return {{{{BoxMove::Empty, "empty"}, {BoxMove::Scroll, "scroll"}}}};
+}
+
 /// A cube that goes with the camera.
 struct CubeAroundCamera {
   static constexpr const char *kKind = "around_camera", *kSummary = "a cube around the eye, moved in steps";
   double extent = 0.5;
   int step = 8;
+  BoxMove move = BoxMove::Empty;
+  bool sway = false;
   static const SettingsTable<CubeAroundCamera>& table();
 };
 using IncrementalBox = std::variant<IncrementalBoxOfScene, IncrementalBoxOfCasters, CubeAroundCamera>;
+
+bool scrolls(const IncrementalBox& box);
 
 /// The grid in which a camera's frame is voxelized.
 voxels::VoxelGrid gridFor(const scene::Scene& scene, const scene::Camera& camera, const IncrementalBox& box,
@@ -36,6 +49,15 @@ enum class LightMapUse {
 };
 constexpr EnumNames<LightMapUse, 2> enumNames(LightMapUse) {
   return {{{{LightMapUse::Shade, "shade"}, {LightMapUse::Voxels, "voxels"}}}};
+}
+
+/// How whole bricks of voxels are decided before any of their voxels is looked at.
+enum class BrickDecision {
+  None,
+  Tiles  ///< by the least and the largest depth of tiles of the depth images
+};
+constexpr EnumNames<BrickDecision, 2> enumNames(BrickDecision) {
+  return {{{{BrickDecision::None, "none"}, {BrickDecision::Tiles, "tiles"}}}};
 }
 
 struct LightMapSettings {

@@ -40,8 +40,8 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   const scene::Camera first =
       scene.camera.at(frame.timeS() - settings_.sequence.frames * settings_.sequence.stepS);
   const voxels::VoxelGrid grid = gridFor(scene, first, settings_.box, settings_.resolution);
-  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used,
-                  used * samplesPerView());
+  volume_.emplace(context, grid, frame.gpuScene().anchor(), attributes_.volume, used, used * samplesPerView(),
+                  scrolls(settings_.box));
   if (views == 2) {
     lightMap_.emplace(context, settings_.lightMap.resolution, frame::Raster::Auto);
     frame.passes().setBytesHeld(kLightMapPass, lightMap_->bytes());
@@ -56,6 +56,7 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
   gl::ShaderDefines shown;
   if (attributes_.volume) shown = {{"VOLUME_ALBEDO", "1"}, {"VOLUME_NORMAL", "1"}};
+  if (volume_->scrolls()) shown["TOROIDAL"] = "1";
   show_ = &context.programs().compute("renderer/techniques/voxelization/voxel_picture.comp.glsl", shown);
   const int64_t bytes = prepareForm(frame, *volume_, views, used);
   frame.passes().setBytesHeld(kVolumePass, volume_->bytes() + bytes);
@@ -84,13 +85,14 @@ void IncrementalTechnique::renderSequence(frame::Frame& frame) {
 
 IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
   if (std::holds_alternative<CubeAroundCamera>(settings_.box)) {
-    const voxels::VoxelGrid grid =
-        gridFor(frame.scene(), frame.camera(), settings_.box, settings_.resolution);
+    voxels::VoxelGrid grid = gridFor(frame.scene(), frame.camera(), settings_.box, settings_.resolution);
+    const auto& around = std::get<CubeAroundCamera>(settings_.box);
+    if (around.sway && number_ % 2 == 1) grid.origin.x += around.step * grid.voxelSize;
     if (grid.origin != volume_->grid().origin) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
       volume_->moveTo(grid.origin);
       restarted(volume_->grid());
-      ++restarts_;
+      ++(volume_->scrolls() ? scrolls_ : restarts_);
     }
   }
   views_[0] = voxels::cameraView(frame);

@@ -43,6 +43,12 @@ class IncrementalTechnique : public Technique {
     const voxels::SampleLighting& lighting;
     int number;
   };
+  /// Of the views that tell of voxels; valid in prepareForm().
+  std::vector<glm::ivec2> viewSizesPx(const frame::Frame& frame, int used) const {
+    std::vector<glm::ivec2> out = {frame.sizePx()};
+    if (used == 2) out.emplace_back(settings_.lightMap.resolution);
+    return out;
+  }
   /// Samples that a step takes of each view at most.
   virtual int64_t samplesPerView() const = 0;
   /// Compiles and allocates; `views` are bound, `used` of them tell of voxels. Returns the bytes that it
@@ -53,7 +59,7 @@ class IncrementalTechnique : public Technique {
   virtual void update(const Step& step) = 0;
   /// Renders the product of a step; by default a picture of the voxels.
   virtual void show(const Step& step, const gl::Texture& picture);
-  /// The grid moved and the volume is empty.
+  /// The grid moved, and the volume is empty or has scrolled.
   virtual void restarted(const voxels::VoxelGrid&) {}
   /// Whether the volume counts what a step does.
   virtual bool countsSteps() const { return true; }
@@ -71,7 +77,7 @@ class IncrementalTechnique : public Technique {
   const gl::Program* show_ = nullptr;
   std::vector<voxels::DepthView> views_;
   voxels::SampleLighting lighting_;
-  int number_ = 0, restarts_ = 0;
+  int number_ = 0, restarts_ = 0, scrolls_ = 0;
 };
 
 }  // namespace limen::techniques

@@ -31,8 +31,8 @@ vec3 lightAlong(vec3 origin, vec3 direction) {
   const int most = gridSizeX + gridSizeY + gridSizeZ;
   for (int i = 0; i < most && isInGrid(voxel); ++i) {
     if (isOccupied(voxel)) {
-      const bool faces = dot(texelFetch(voxelNormals, voxel, 0).xyz, direction) < 0.0;
-      return faces ? texelFetch(voxelLights, voxel, 0).xyz : vec3(0.0);
+      const bool faces = dot(texelFetch(voxelNormals, storedVoxel(voxel), 0).xyz, direction) < 0.0;
+      return faces ? texelFetch(voxelLights, storedVoxel(voxel), 0).xyz : vec3(0.0);
     }
     const int axis = next.x <= next.y && next.x <= next.z ? 0 : next.y <= next.z ? 1 : 2;
     voxel[axis] += step_[axis];

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
+#include "renderer/techniques/incremental_voxelization/incremental_update.h"
 #include "renderer/techniques/incremental_voxelization/marched_light_bindings.h"
-#include "renderer/voxels/clean_up.h"
 #include "renderer/voxels/voxel_bindings.h"
 
 namespace limen::techniques {
@@ -64,11 +64,9 @@ class MarchedLight : public IncrementalTechnique {
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    if (const auto* kept = std::get_if<KeptVoxels>(&settings_.voxels))
-      cleanUp_.emplace(frame.context(), kept->cleanUp, volume, views, used);
-    else
-      forget_.emplace(frame.context(), volume);
-    injection_.emplace(frame.context(), settings_.points, volume, views, used);
+    IncrementalUpdate::Settings update{.kept = {}, .points = settings_.points};
+    if (const auto* kept = std::get_if<KeptVoxels>(&settings_.voxels)) update.kept = kept->cleanUp;
+    update_.emplace(frame.context(), update, volume, views, used);
     gl::ShaderDefines defines = volume.defines();
     defines["VIEWS"] = std::to_string(views);
     march_ = &frame.context().programs().compute(
@@ -76,15 +74,7 @@ class MarchedLight : public IncrementalTechnique {
     return 0;
   }
   void update(const Step& step) override {
-    {
-      const auto scope = step.frame.passes().open("incremental_voxelization/clean_up");
-      if (cleanUp_)
-        cleanUp_->run(step.volume, step.views, step.frame.gpuScene().anchor());
-      else
-        forget_->run(step.volume);
-    }
-    const auto scope = step.frame.passes().open("incremental_voxelization/inject");
-    injection_->run(step.frame, step.volume, step.views, step.lighting, step.number);
+    update_->run(step.frame, step.volume, step.views, step.lighting, step.number);
   }
   void show(const Step& step, const gl::Texture& picture) override {
     step.volume.configure(*march_);
@@ -100,15 +90,13 @@ class MarchedLight : public IncrementalTechnique {
 
  private:
   MarchedLightSettings settings_;
-  std::optional<voxels::CleanUp> cleanUp_;
-  std::optional<voxels::Forget> forget_;
-  std::optional<voxels::Injection> injection_;
+  std::optional<IncrementalUpdate> update_;
   const gl::Program* march_ = nullptr;
 };
 
 const RegisteredTechnique<MarchedLight> kMarchedLightRegistered{
     {.name = "incremental_voxelization/marched_light",
-     .version = 2,
+     .version = 3,
      .summary =
          "Light reflected once, by rays through voxels kept from frame to frame or through one frame's",
      .source = "Gaitatzes 2012, sections 7.5 and 7.7 (IV-10)",

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
 #include "renderer/techniques/incremental_voxelization/voxel_textures.h"
@@ -32,6 +33,11 @@ struct PointRasterSettings {
   VoxelLayout layout = VoxelLayout::Atlas;
   int targets = 4;
   RasterFormat format = RasterFormat::Full;
+  void check() const {
+    if (scrolls(common.box))
+      throw Error("volumes in textures are emptied where the box moves", "box",
+                  "choose move: empty, or incremental_voxelization/two_stage");
+  }
   static const SettingsTable<PointRasterSettings>& table() {
     using S = PointRasterSettings;
     static const SettingsTable<S> kTable = {
@@ -213,7 +219,7 @@ class PointRaster : public IncrementalTechnique {
 
 const RegisteredTechnique<PointRaster> kPointRasterRegistered{
     {.name = "incremental_voxelization/point_raster",
-     .version = 2,
+     .version = 3,
      .summary = "Voxels kept in textures, used in turn; points are drawn into layers or into an atlas",
      .source = "Gaitatzes 2012, sections 7.4 to 7.6 (IV-01, IV-04, IV-05, IV-09)",
      .product = ProductKind::Colour,

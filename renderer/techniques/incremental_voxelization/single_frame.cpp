@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
-#include "renderer/voxels/clean_up.h"
+#include "renderer/techniques/incremental_voxelization/incremental_update.h"
 
 namespace limen::techniques {
 namespace {
@@ -34,28 +34,22 @@ class SingleFrame : public IncrementalTechnique {
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    forget_.emplace(frame.context(), volume);
-    injection_.emplace(frame.context(), settings_.points, volume, views, used);
+    update_.emplace(frame.context(), IncrementalUpdate::Settings{.kept = {}, .points = settings_.points},
+                    volume, views, used);
     return 0;
   }
   void update(const Step& step) override {
-    {
-      const auto scope = step.frame.passes().open("incremental_voxelization/clean_up");
-      forget_->run(step.volume);
-    }
-    const auto scope = step.frame.passes().open("incremental_voxelization/inject");
-    injection_->run(step.frame, step.volume, step.views, step.lighting, step.number);
+    update_->run(step.frame, step.volume, step.views, step.lighting, step.number);
   }
 
  private:
   SingleFrameSettings settings_;
-  std::optional<voxels::Forget> forget_;
-  std::optional<voxels::Injection> injection_;
+  std::optional<IncrementalUpdate> update_;
 };
 
 const RegisteredTechnique<SingleFrame> kSingleFrameRegistered{
     {.name = "incremental_voxelization/single_frame",
-     .version = 1,
+     .version = 2,
      .summary = "Voxels of what the current frame's depth images show; nothing is kept",
      .source = "Gaitatzes 2012, section 7.7 (BL-07)",
      .product = ProductKind::Colour,

@@ -3,6 +3,7 @@
 #include "renderer/voxels/single_pass.h"
 
 #include <optional>
+#include <vector>
 
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 
@@ -14,6 +15,7 @@ struct SinglePassSettings {
   bool attributes = true;
   voxels::CleanUpBias bias = voxels::RadiusBias{};
   bool sky = true;
+  BrickDecision bricks = BrickDecision::None;
   static const SettingsTable<SinglePassSettings>& table() {
     using S = SinglePassSettings;
     static const SettingsTable<S> kTable = {
@@ -21,7 +23,9 @@ struct SinglePassSettings {
         {&S::attributes, "attributes", "Normal, reflectance and light of each voxel besides occupancy"},
         {&S::bias, "bias", "How far a voxel's middle may lie from what is seen there to be filled",
          "Gaitatzes 2012, section 7.4.1"},
-        {&S::sky, "sky", "Pixels that see nothing see through voxels"}};
+        {&S::sky, "sky", "Pixels that see nothing see through voxels"},
+        {&S::bricks, "bricks",
+         "How whole bricks of 32 x 8 x 8 voxels are decided at once; changes no voxel"}};
     return kTable;
   }
 };
@@ -31,14 +35,16 @@ class SinglePassTechnique : public IncrementalTechnique {
   using Settings = SinglePassSettings;
   explicit SinglePassTechnique(const Settings& settings)
       : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}),
-        cleanUp_{.bias = settings.bias, .proof = voxels::Proof::Centre, .sky = settings.sky} {}
+        cleanUp_{.bias = settings.bias, .proof = voxels::Proof::Centre, .sky = settings.sky},
+        bricks_(settings.bricks) {}
 
  protected:
   int64_t samplesPerView() const override { return 1; }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    pass_.emplace(frame.context(), cleanUp_, volume, views, used);
-    return 0;
+    pass_.emplace(frame.context(), cleanUp_, volume, views, used,
+                  bricks_ == BrickDecision::Tiles ? viewSizesPx(frame, used) : std::vector<glm::ivec2>());
+    return pass_->bytes();
   }
   void update(const Step& step) override {
     const auto scope = step.frame.passes().open("incremental_voxelization/clean_up");
@@ -47,12 +53,13 @@ class SinglePassTechnique : public IncrementalTechnique {
 
  private:
   voxels::CleanUpSettings cleanUp_;
+  BrickDecision bricks_;
   std::optional<voxels::SinglePass> pass_;
 };
 
 const RegisteredTechnique<SinglePassTechnique> kSinglePassRegistered{
     {.name = "incremental_voxelization/single_pass",
-     .version = 1,
+     .version = 2,
      .summary = "Clean-up and injection in one: each voxel takes what depth images show at its middle",
      .source = "Gaitatzes 2012, section 7.4.3 (IV-08)",
      .product = ProductKind::Colour,

@@ -7,10 +7,11 @@
 // over a voxel's samples, light is stored as radiance instead of as harmonics, which follow from it and the
 // normal; the light's samples count as their mean, not as a sum of fluxes, which would depend on the map.
 #include <optional>
+#include <vector>
 
+#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/moving_bricks.h"
+#include "renderer/techniques/incremental_voxelization/incremental_update.h"
 
 namespace limen::techniques {
 namespace {
@@ -29,7 +30,13 @@ struct TwoStageSettings {
   bool attributes = true;
   voxels::CleanUpSettings cleanUp;
   CleanUpRegion region = CleanUpRegion::Everywhere;
+  BrickDecision bricks = BrickDecision::None;
   voxels::PointSettings points;
+  void check() const {
+    if (region == CleanUpRegion::Moving && scrolls(common.box))
+      throw Error("bricks in which parts have been are those of a box that does not scroll", "region",
+                  "choose region: everywhere, or a box that is emptied where it moves");
+  }
   static const SettingsTable<TwoStageSettings>& table() {
     using S = TwoStageSettings;
     static const SettingsTable<S> kTable = {
@@ -37,6 +44,7 @@ struct TwoStageSettings {
         {&S::attributes, "attributes", "Normal, reflectance and light of each voxel besides occupancy"},
         {&S::cleanUp, "clean_up", "When a depth image disproves a voxel"},
         {&S::region, "region", "Where voxels are tested", "Gaitatzes 2012, section 7.8"},
+        {&S::bricks, "bricks", "How whole bricks of 32 x 8 x 8 voxels are decided at once; changes no voxel"},
         {&S::points, "points", "Points at which depth images are sampled"}};
     return kTable;
   }
@@ -53,24 +61,19 @@ class TwoStage : public IncrementalTechnique {
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
   int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
                       int used) override {
-    cleanUp_.emplace(frame.context(), settings_.cleanUp, volume, views, used);
-    injection_.emplace(frame.context(), settings_.points, volume, views, used);
+    update_.emplace(frame.context(),
+                    IncrementalUpdate::Settings{.kept = settings_.cleanUp,
+                                                .points = settings_.points,
+                                                .tiledPx = settings_.bricks == BrickDecision::Tiles
+                                                               ? viewSizesPx(frame, used)
+                                                               : std::vector<glm::ivec2>()},
+                    volume, views, used);
     if (settings_.region == CleanUpRegion::Moving) bricks_.emplace(frame.scene(), volume.grid());
-    return bricks_ ? bricks_->list().bytes() : 0;
+    return update_->bytes() + (bricks_ ? bricks_->list().bytes() : 0);
   }
   void update(const Step& step) override {
-    {
-      const auto scope = step.frame.passes().open("incremental_voxelization/clean_up");
-      const glm::dvec3 anchor = step.frame.gpuScene().anchor();
-      if (bricks_) {
-        cleanUp_->run(step.volume, step.views, anchor, bricks_->list(), bricks_->count());
-        bricks_->add(step.frame.timeS());
-      } else {
-        cleanUp_->run(step.volume, step.views, anchor);
-      }
-    }
-    const auto scope = step.frame.passes().open("incremental_voxelization/inject");
-    injection_->run(step.frame, step.volume, step.views, step.lighting, step.number);
+    update_->run(step.frame, step.volume, step.views, step.lighting, step.number,
+                 bricks_ ? &*bricks_ : nullptr);
   }
 
   void restarted(const voxels::VoxelGrid& grid) override {
@@ -80,13 +83,12 @@ class TwoStage : public IncrementalTechnique {
  private:
   TwoStageSettings settings_;
   std::optional<voxels::MovingBricks> bricks_;
-  std::optional<voxels::CleanUp> cleanUp_;
-  std::optional<voxels::Injection> injection_;
+  std::optional<IncrementalUpdate> update_;
 };
 
 const RegisteredTechnique<TwoStage> kTwoStageRegistered{
     {.name = "incremental_voxelization/two_stage",
-     .version = 1,
+     .version = 2,
      .summary =
          "Voxels kept from frame to frame: what depth images disprove is emptied, what they show is filled",
      .source = "Gaitatzes 2012, section 7.4 (IV-02 to IV-07)",

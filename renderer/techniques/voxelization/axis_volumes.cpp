@@ -97,6 +97,7 @@ void AxisVolumes::setBlending(const voxels::Volume& volume) const {
 void AxisVolumes::draw(frame::Frame& frame, const voxels::Volume& volume, const Axis& axis) const {
   constexpr std::array<float, 4> kEmpty = {0.0F, 0.0F, 0.0F, 0.0F};
   volume.configure(*axis.program);
+  if (form_.defines.count("CONSERVATIVE") != 0) frame.gpuScene().bindStorage(&frame.positions());
   if (volume.attributes().any()) {
     frame.bindSurfaces();
     frame.gpuScene().bindStorage(&frame.positions());

@@ -76,7 +76,7 @@ class Binned : public VoxelTechnique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  std::vector<Counter> countForm() const override {
+  std::vector<Counter> countForm(const voxels::Volume&) const override {
     return {{"pairs", double(pairs())}, {"pairs_lost", std::max(0.0, double(pairs()) - capacity_)}};
   }
 

@@ -3,6 +3,7 @@
 // 2012, chapter 6; the single pass without geometry shader, temporary volumes and merge is the bench's own,
 // as are means of attributes in fixed point in place of blending.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -19,14 +20,70 @@ namespace {
 
 constexpr const char* kImageStorePass = "voxelization/image_store";
 
+/// Which voxels have sums, of which means are made.
+struct SumsOfOccupied {
+  static constexpr const char *kKind = "occupied",
+                              *kSummary = "occupied ones, in a second run over the triangles";
+  double spare = 1.5;
+  static const SettingsTable<SumsOfOccupied>& table() {
+    static const SettingsTable<SumsOfOccupied> kTable = {
+        {&SumsOfOccupied::spare,
+         "spare",
+         {1.0, 16.0},
+         "",
+         "Room for sums where parts move, of what the first frame needs: later ones may need more"}};
+    return kTable;
+  }
+};
+struct SumsThatFit {
+  static constexpr const char *kKind = "fitting",
+                              *kSummary =
+                                  "all of the grid; occupied ones where these exceed a buffer or the budget";
+  double spare = 1.5;
+  static const SettingsTable<SumsThatFit>& table() {
+    static const SettingsTable<SumsThatFit> kTable = {
+        {&SumsThatFit::spare, "spare", {1.0, 16.0}, "", "As that of occupied, for occupied ones"}};
+    return kTable;
+  }
+};
+struct SumsOfAll {
+  static constexpr const char *kKind = "all", *kSummary = "all of the grid, in the run that fills them";
+};
+using SumsSetting = std::variant<SumsThatFit, SumsOfOccupied, SumsOfAll>;
+
+struct MeanSurface {
+  static constexpr const char *kKind = SurfaceVoxelAttributes::kKind,
+                              *kSummary = SurfaceVoxelAttributes::kSummary;
+  SurfaceVoxelAttributes surface;
+  SumsSetting sums;
+  static const SettingsTable<MeanSurface>& table() {
+    static const SettingsTable<MeanSurface> kTable = {
+        included(&MeanSurface::surface),
+        {&MeanSurface::sums, "sums", "Voxels that have room for the sums of which means are made"}};
+    return kTable;
+  }
+};
+struct MeanLight {
+  static constexpr const char *kKind = LitVoxelAttributes::kKind, *kSummary = LitVoxelAttributes::kSummary;
+  LitVoxelAttributes lit;
+  SumsSetting sums;
+  static const SettingsTable<MeanLight>& table() {
+    static const SettingsTable<MeanLight> kTable = {
+        included(&MeanLight::lit),
+        {&MeanLight::sums, "sums", "Voxels that have room for the sums of which means are made"}};
+    return kTable;
+  }
+};
+using MeanSetting = std::variant<NoVoxelAttributes, MeanSurface, MeanLight>;
+
 struct ImageStoreSettings {
   VoxelGridSettings grid;
   voxels::Coverage coverage = voxels::Coverage::Thin;
-  VoxelAttributeSetting attributes;
+  MeanSetting attributes;
   bool split = false;
   void check() const {
-    const auto* lit = std::get_if<LitVoxelAttributes>(&attributes);
-    if (split && lit && lit->shadows)
+    const auto* light = std::get_if<MeanLight>(&attributes);
+    if (split && light && light->lit.shadows)
       throw Error("a part that moves changes the light of those that rest", "split",
                   "choose attributes without light, or shadows: false, or split: false");
   }
@@ -35,7 +92,7 @@ struct ImageStoreSettings {
     static const SettingsTable<S> kTable = {
         included(&S::grid),
         {&S::coverage, "coverage", "Which voxels a triangle fills"},
-        voxelAttributesBinding(&S::attributes),
+        {&S::attributes, "attributes", "What each voxel holds besides whether it is occupied"},
         {&S::split, "split", "Parts that rest in a volume of their own, filled once",
          "Gaitatzes 2012, section 6.4"}};
     return kTable;
@@ -49,10 +106,37 @@ class ImageStore : public VoxelTechnique {
       : VoxelTechnique(settings.grid, kImageStorePass), settings_(settings) {}
 
  protected:
-  voxels::VolumeAttributes attributes() const override { return volumeAttributes(settings_.attributes); }
+  voxels::VolumeAttributes attributes(frame::Frame& frame, const voxels::VoxelGrid& grid) const override {
+    voxels::VolumeAttributes out;
+    const SumsSetting* sums = nullptr;
+    if (const auto* surface = std::get_if<MeanSurface>(&settings_.attributes)) {
+      out = volumeAttributes(VoxelAttributeSetting(surface->surface));
+      sums = &surface->sums;
+    }
+    if (const auto* light = std::get_if<MeanLight>(&settings_.attributes)) {
+      out = volumeAttributes(VoxelAttributeSetting(light->lit));
+      sums = &light->sums;
+    }
+    if (!sums) return out;
+    double spare = 1.0;
+    if (const auto* occupied = std::get_if<SumsOfOccupied>(sums)) {
+      out.sums = voxels::VoxelSums::Occupied;
+      spare = occupied->spare;
+    }
+    if (const auto* fitting = std::get_if<SumsThatFit>(sums)) {
+      out.sums = voxels::fitSumsOfAll(grid, out) ? voxels::VoxelSums::All : voxels::VoxelSums::Occupied;
+      spare = fitting->spare;
+    }
+    if (out.sums == voxels::VoxelSums::Occupied) {
+      if (frame.scene().motions.empty()) spare = 1.0;
+      const int64_t now = voxels::countOccupied(frame, grid, settings_.coverage);
+      out.mostOccupied = std::max<int64_t>(1, std::llround(spare * static_cast<double>(now)));
+    }
+    return out;
+  }
   int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) override {
     voxels::VoxelLamps lamps;
-    if (const auto* lit = std::get_if<LitVoxelAttributes>(&settings_.attributes)) lamps = lit->lamps();
+    if (const auto* light = std::get_if<MeanLight>(&settings_.attributes)) lamps = light->lit.lamps();
     voxelizer_.emplace(frame, settings_.coverage, volume, lamps);
     // The scene's own tree is of its triangles at rest.
     const bool traced = volume.attributes().lit() && lamps.shadows && !frame.scene().lights.empty();
@@ -69,25 +153,27 @@ class ImageStore : public VoxelTechnique {
   void fill(frame::Frame& frame, const voxels::Volume& volume) override {
     const ray_tracing::RayTree* tree = tree_ ? &*tree_ : nullptr;
     if (!resting_) {
-      voxelizer_->run(frame, volume, tree);
+      voxelizer_->run(frame, volume, {.tree = tree});
       return;
     }
     if (restingFills_ == 0) {
-      for (const voxels::TriangleSpan span : restingSpans_) voxelizer_->add(frame, *resting_, tree, span);
+      voxelizer_->gather(frame, *resting_, {.spans = restingSpans_, .tree = tree});
       ++restingFills_;
     }
-    volume.clear();
-    for (const voxels::TriangleSpan span : movingSpans_) voxelizer_->add(frame, volume, tree, span);
-    volume.finishWith(*resting_);
+    voxelizer_->run(frame, volume, {.spans = movingSpans_, .tree = tree, .base = &*resting_});
   }
-  std::vector<Counter> countForm() const override {
-    return {{"rays_cut_short", double(voxelizer_->cutShort())}, {"resting_fills", double(restingFills_)}};
+  std::vector<Counter> countForm(const voxels::Volume& volume) const override {
+    return {{"rays_cut_short", double(voxelizer_->cutShort())},
+            {"voxels_without_sums", double(volume.withoutSums())},
+            {"resting_fills", double(restingFills_)}};
   }
 
  private:
   void prepareSplit(frame::Frame& frame, const voxels::Volume& volume) {
     const scene::Scene& scene = frame.scene();
-    resting_.emplace(frame.context(), volume.grid(), frame.gpuScene().anchor(), volume.attributes());
+    voxels::VolumeAttributes attributes = volume.attributes();
+    attributes.joined = attributes.any();
+    resting_.emplace(frame.context(), volume.grid(), frame.gpuScene().anchor(), attributes);
     for (uint32_t part = 0; part < scene.parts.size(); ++part) {
       const scene::Part& of = scene.parts[part];
       const bool moves = std::any_of(scene.motions.begin(), scene.motions.end(),
@@ -112,6 +198,8 @@ std::vector<Quantity> imageStoreQuantities() {
   std::vector<Quantity> out = VoxelTechnique::quantities();
   out.push_back({"rays_cut_short", "Invocations whose rays a software renderer cut short", "",
                  Direction::LowerIsBetter});
+  out.push_back({"voxels_without_sums", "Occupied voxels without attributes, as there was no room for sums",
+                 "", Direction::LowerIsBetter});
   out.push_back(
       {"resting_fills", "Times that the volume of what rests has been filled", "", Direction::LowerIsBetter});
   return out;
@@ -119,7 +207,7 @@ std::vector<Quantity> imageStoreQuantities() {
 
 const RegisteredTechnique<ImageStore> kImageStore{
     {.name = "voxelization/image_store",
-     .version = 2,
+     .version = 3,
      .summary = "Triangles into voxels by compute: no geometry shader, no cap, nothing to merge",
      .source = "Gaitatzes 2012, chapter 6 (VX-12, VX-13)",
      .product = ProductKind::Colour,

@@ -70,7 +70,7 @@ class SliceLists : public VoxelTechnique {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  std::vector<Counter> countForm() const override {
+  std::vector<Counter> countForm(const voxels::Volume&) const override {
     return {{"slices", double(sums_->read<uint32_t>(4 * triangles_, 1)[0])}};
   }
 

@@ -4,7 +4,14 @@
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/voxels/voxel_surface.glsl"
 
+#ifdef CONSERVATIVE
+layout(location = 3) flat in uint triangle;
+#endif
 #ifdef SUMS
+#ifdef CONSERVATIVE
+vec3 point = vec3(0.0);  // given by main()
+uint triangleId() { return triangle; }
+#else
 layout(location = 2) in vec3 point;
 #ifdef TRIANGLE_FROM_DRAW  // no geometry shader in between
 layout(location = 3) flat in uint first;
@@ -12,6 +19,7 @@ uint triangleId() { return first + uint(gl_PrimitiveID); }
 #else
 layout(location = 3) flat in uint triangle;
 uint triangleId() { return triangle; }
+#endif
 #endif
 layout(location = OUT_OCCUPANCY) out vec4 outOccupancy;
 #ifdef VOLUME_ALBEDO

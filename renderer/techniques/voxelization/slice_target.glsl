@@ -4,17 +4,19 @@
 
 layout(triangles) in;
 layout(location = 0) in vec3 place[];
-layout(location = 1) flat in uint first[];
-#ifdef SUMS
+layout(location = 1) flat in uint firstTriangle[];
+#if defined(SUMS) && !defined(CONSERVATIVE)
 layout(location = 2) out vec3 point;  // in voxels
+#endif
+#if defined(SUMS) || defined(CONSERVATIVE)
 layout(location = 3) flat out uint triangle;
 #endif
 
 // What a fragment's attributes are made from.
 void carry(vec3 at) {
-#ifdef SUMS
+#if defined(SUMS) && !defined(CONSERVATIVE)
   point = at;
-  triangle = first[0] + uint(gl_PrimitiveIDIn);
+  triangle = firstTriangle[0] + uint(gl_PrimitiveIDIn);
 #endif
 }
 
@@ -28,4 +30,5 @@ bool facesAxis(vec3 normal) {
 }
 
 // Row 0 of images is their top.
-vec4 onLayer(vec3 v) { return vec4(vec2(2.0, -2.0) * across(v) / across(vec3(gridSize())) + vec2(-1.0, 1.0), 0.5, 1.0); }
+vec4 onLayerAcross(vec2 at) { return vec4(vec2(2.0, -2.0) * at / across(vec3(gridSize())) + vec2(-1.0, 1.0), 0.5, 1.0); }
+vec4 onLayer(vec3 v) { return onLayerAcross(across(v)); }

@@ -21,13 +21,22 @@ namespace {
 
 const std::string kSliceFolder = "renderer/techniques/voxelization/";
 
+/// Which voxels a triangle fills that is sent to slices.
+enum class SliceCoverage {
+  Dominant,     ///< whose column's middle it covers
+  Conservative  ///< all that it meets
+};
+constexpr EnumNames<SliceCoverage, 2> enumNames(SliceCoverage) {
+  return {{{{SliceCoverage::Dominant, "dominant"}, {SliceCoverage::Conservative, "conservative"}}}};
+}
+
 struct Slicing {
   static constexpr const char* kName = "voxelization/slicing";
   static constexpr const char* kSummary =
       "Triangles cut into the slices of a grid by a geometry shader, along one of three axes each";
   static constexpr const char* kSource = "Gaitatzes 2012, section 6.2.1 (VX-05)";
   static constexpr int kVertices = 15;
-  static constexpr bool kPassPerSlice = false;
+  static constexpr bool kPassPerSlice = false, kCutsSlices = true;
   static std::vector<std::string> stages() {
     return {kSliceFolder + "slice.vert.glsl", kSliceFolder + "slicing.geom.glsl",
             kSliceFolder + "slice.frag.glsl"};
@@ -40,7 +49,7 @@ struct PixelClip {
       "Triangles sent whole to each slice of a grid that they reach, and clipped pixel by pixel";
   static constexpr const char* kSource = "Gaitatzes 2012, section 6.2.2 (VX-06)";
   static constexpr int kVertices = 9;
-  static constexpr bool kPassPerSlice = false;
+  static constexpr bool kPassPerSlice = false, kCutsSlices = false;
   static std::vector<std::string> stages() {
     return {kSliceFolder + "slice.vert.glsl", kSliceFolder + "pixel_clip.geom.glsl",
             kSliceFolder + "pixel_clip.frag.glsl"};
@@ -53,7 +62,7 @@ struct SlicePasses {
       "All triangles drawn for each slice along each of three axes, clipped to it";
   static constexpr const char* kSource = "Fang and Chen 2000; Gaitatzes 2012, section 5.3 (BL-05)";
   static constexpr int kVertices = 0;
-  static constexpr bool kPassPerSlice = true;
+  static constexpr bool kPassPerSlice = true, kCutsSlices = false;
   static std::vector<std::string> stages() {
     return {kSliceFolder + "slice_pass.vert.glsl", kSliceFolder + "slice_pass.frag.glsl"};
   }
@@ -103,6 +112,7 @@ template <class Form>
 struct SliceSettings {
   VoxelGridSettings grid;
   int vertices = Form::kVertices;
+  SliceCoverage coverage = SliceCoverage::Dominant;
   BlendedSetting attributes;
   AxisRefresh refresh = AxisRefresh::All;
   /// Of the 1,024 components that a geometry shader may emit a vertex with attributes takes 12.
@@ -132,6 +142,11 @@ struct SliceSettings {
            "",
            "Cap on the vertices that the geometry shader emits for a triangle; slices beyond it are lost",
            "Gaitatzes 2012, Table 3"},
+          {&S::coverage, "coverage",
+           "Which voxels a triangle fills: by conservative coverage a slice takes up to 7 vertices, 9 of a "
+           "triangle "
+           "that is cut",
+           "Gaitatzes 2012, section 6.4"},
           kAttributes,
           kRefresh};
       return kTable;
@@ -147,7 +162,9 @@ class SliceVoxelizer : public VoxelTechnique {
       : VoxelTechnique(settings.grid, Form::kName), settings_(settings) {}
 
  protected:
-  voxels::VolumeAttributes attributes() const override { return blendedAttributes(settings_.attributes); }
+  voxels::VolumeAttributes attributes(frame::Frame&, const voxels::VoxelGrid&) const override {
+    return blendedAttributes(settings_.attributes);
+  }
   int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) override {
     AxisVolumes::Form form{.stages = Form::stages(),
                            .defines = {{"CAP", std::to_string(settings_.vertices)}},
@@ -155,6 +172,12 @@ class SliceVoxelizer : public VoxelTechnique {
                            .blend = FragmentBlend::Separate,
                            .refresh = settings_.refresh,
                            .lamps = {}};
+    if (settings_.coverage == SliceCoverage::Conservative) {
+      form.stages = {kSliceFolder + "slice.vert.glsl", kSliceFolder + "conservative.geom.glsl",
+                     kSliceFolder + "conservative.frag.glsl"};
+      form.defines["CONSERVATIVE"] = "1";
+      if (Form::kCutsSlices) form.defines["CUT"] = "1";
+    }
     if (const auto* surface = std::get_if<BlendedSurface>(&settings_.attributes)) form.blend = surface->blend;
     if (const auto* light = std::get_if<BlendedLight>(&settings_.attributes)) {
       form.blend = light->blend;
@@ -165,7 +188,7 @@ class SliceVoxelizer : public VoxelTechnique {
     return volumes_->bytes();
   }
   void fill(frame::Frame& frame, const voxels::Volume& volume) override { volumes_->fill(frame, volume); }
-  std::vector<Counter> countForm() const override {
+  std::vector<Counter> countForm(const voxels::Volume&) const override {
     return {{"draws", double(volumes_->draws())},
             {"lag_frames", settings_.refresh == AxisRefresh::One ? 2.0 : 0.0}};
   }

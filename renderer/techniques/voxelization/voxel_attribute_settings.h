@@ -73,10 +73,4 @@ using VoxelAttributeSetting = std::variant<NoVoxelAttributes, SurfaceVoxelAttrib
 
 voxels::VolumeAttributes volumeAttributes(const VoxelAttributeSetting& setting);
 
-/// The line `attributes` of settings tables.
-template <class S>
-Binding<S> voxelAttributesBinding(VoxelAttributeSetting S::*member) {
-  return {member, "attributes", "What each voxel holds besides whether it is occupied"};
-}
-
 }  // namespace limen::techniques

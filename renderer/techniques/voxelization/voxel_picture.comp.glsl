@@ -14,14 +14,14 @@ const vec3 kBackground = vec3(0.05);
 
 vec3 shadedVoxel(ivec3 voxel, vec3 sideNormal, vec3 direction) {
 #ifdef VOLUME_LIGHT
-  return texelFetch(volumeLight, voxel, 0).xyz + 0.1 * texelFetch(volumeAlbedo, voxel, 0).xyz;
+  return texelFetch(volumeLight, storedVoxel(voxel), 0).xyz + 0.1 * texelFetch(volumeAlbedo, storedVoxel(voxel), 0).xyz;
 #endif
   vec3 albedo = vec3(0.7), normal = sideNormal;
 #ifdef VOLUME_ALBEDO
-  albedo = texelFetch(volumeAlbedo, voxel, 0).xyz;
+  albedo = texelFetch(volumeAlbedo, storedVoxel(voxel), 0).xyz;
 #endif
 #ifdef VOLUME_NORMAL
-  const vec3 mean = texelFetch(volumeNormal, voxel, 0).xyz;
+  const vec3 mean = texelFetch(volumeNormal, storedVoxel(voxel), 0).xyz;
   // Opposite sides of a thin wall cancel.
   if (dot(mean, mean) > 0.01) normal = normalize(mean);
 #endif

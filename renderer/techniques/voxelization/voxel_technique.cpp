@@ -32,11 +32,11 @@ const SettingsTable<VoxelGridSettings>& VoxelGridSettings::table() {
 void VoxelTechnique::prepare(frame::Frame& frame) {
   const scene::Bounds bounds =
       gridSettings_.box == GridBox::Casters ? frame.scene().casterBounds() : frame.scene().bounds();
-  voxels::VolumeAttributes attributes = this->attributes();
+  const voxels::VoxelGrid grid = voxels::tightGrid(bounds, gridSettings_.resolution);
+  voxels::VolumeAttributes attributes = this->attributes(frame, grid);
   // By Coverage::Thin a triangle enters a voxel three times at most.
   attributes.mostEntries = 3 * int64_t{frame.gpuScene().triangleCount()};
-  volume_.emplace(frame.context(), voxels::tightGrid(bounds, gridSettings_.resolution),
-                  frame.gpuScene().anchor(), attributes);
+  volume_.emplace(frame.context(), grid, frame.gpuScene().anchor(), attributes);
   picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
   show_ = &frame.context().programs().compute("renderer/techniques/voxelization/voxel_picture.comp.glsl",
                                               volume_->defines());
@@ -86,7 +86,7 @@ std::vector<Counter> VoxelTechnique::count(frame::Frame& frame) {
     counters.push_back({"albedo_rms", error.albedo});
     counters.push_back({"normal_rms_deg", error.normalDeg});
   }
-  const std::vector<Counter> own = countForm();
+  const std::vector<Counter> own = countForm(*volume_);
   counters.insert(counters.end(), own.begin(), own.end());
   return counters;
 }

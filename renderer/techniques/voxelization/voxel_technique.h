@@ -36,7 +36,8 @@ class VoxelTechnique : public Technique {
   static std::vector<Quantity> quantities();
 
  protected:
-  virtual voxels::VolumeAttributes attributes() const { return {}; }
+  /// For volumes of a grid.
+  virtual voxels::VolumeAttributes attributes(frame::Frame&, const voxels::VoxelGrid&) const { return {}; }
   /// Compiles and allocates; returns the bytes that it holds besides the volume.
   virtual int64_t prepareForm(frame::Frame& frame, const voxels::Volume& volume) = 0;
   /// What fill() needs and passes of their own make.
@@ -44,7 +45,7 @@ class VoxelTechnique : public Technique {
   /// Fills the volume, which holds whatever it held.
   virtual void fill(frame::Frame& frame, const voxels::Volume& volume) = 0;
   /// Besides quantities().
-  virtual std::vector<Counter> countForm() const { return {}; }
+  virtual std::vector<Counter> countForm(const voxels::Volume&) const { return {}; }
 
  private:
   VoxelGridSettings gridSettings_;

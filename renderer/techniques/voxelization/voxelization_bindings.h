@@ -20,6 +20,10 @@ const uint kAxisNormalZUnit = 5u;
 const uint kMergedBitsImage = 0u;
 const uint kMergedAttachmentImage = 0u;
 
+// A rasteriser keeps 8 bits of a pixel, so that corners are off by up to 2^-9 px: what must not be lost is
+// drawn this much larger.
+const float kRasterSlack = 0.00390625f;
+
 // Lists of slices: item i of a triangle is its i-th slice.
 const int kSliceGroup = 64;
 const int kSliceAlone = 64;  // columns; of more the group takes its share
@@ -31,7 +35,8 @@ const int kBrickX = 32;
 const int kBrickY = 8;
 const int kBrickZ = 8;
 const int kBrickGroup = 64;
-const int kBrickAlone = 24;  // bricks of a triangle, and columns within a brick; of more the group takes its share
+const int kBrickAlone =
+    24;  // bricks of a triangle, and columns within a brick; of more the group takes its share
 const uint kBrickCountsBuffer = 2u;
 const uint kBrickStartsBuffer = 3u;
 const uint kBrickTrianglesBuffer = 4u;

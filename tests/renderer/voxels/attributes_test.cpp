@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What voxels hold, against voxel_oracle.h.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -153,12 +154,10 @@ TEST_F(VoxelAttributesTest, NothingIsLeftOfAnEarlierFill) {
   const Voxelizer voxelizer(frame, Coverage::Thin, volume);
   const uint32_t half = both.parts[1].firstTriangle;
   frame.begin();
+  const VoxelizedPart later{.spans = {{.first = half}}};
   voxelizer.run(frame, volume);
-  volume.clear();
-  voxelizer.add(frame, volume, nullptr, {.first = half});
-  volume.finish();
-  voxelizer.add(frame, fresh, nullptr, {.first = half});
-  fresh.finish();
+  voxelizer.run(frame, volume, later);
+  voxelizer.run(frame, fresh, later);
   frame.end();
   EXPECT_EQ(volume.readOccupied(), fresh.readOccupied());
   for (size_t i = 0; i < kVoxelAttributes; ++i)
@@ -168,6 +167,15 @@ TEST_F(VoxelAttributesTest, NothingIsLeftOfAnEarlierFill) {
   for (const uint32_t sum : volume.sums()->read<uint32_t>()) ASSERT_EQ(sum, 0U);
 }
 
+/// Every bit of all attachments, one after another.
+void expectEqual(const Volume& a, const Volume& b) {
+  EXPECT_EQ(a.readOccupied(), b.readOccupied());
+  for (size_t i = 0; i < kVoxelAttributes; ++i)
+    for (int z = 0; z < a.grid().resolution.z; ++z)
+      EXPECT_EQ(a.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data,
+                b.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data);
+}
+
 // What rests in one volume and what moves in another are, joined, what one volume has of all: to the last
 // bit, as sums are whole numbers. Twice, since the second time something has to go.
 TEST_F(VoxelAttributesTest, TwoVolumesJoinAsOne) {
@@ -175,26 +183,69 @@ TEST_F(VoxelAttributesTest, TwoVolumesJoinAsOne) {
   const VoxelGrid grid = tightGrid(scene.bounds(), 20);
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, {16, 16});
-  const Volume resting(context(), grid, gpuScene.anchor(), kAll),
-      joined(context(), grid, gpuScene.anchor(), kAll), whole(context(), grid, gpuScene.anchor(), kAll);
-  const Voxelizer voxelizer(frame, Coverage::Thin, whole);
-  const TriangleSpan first{.first = 0, .end = scene.parts[2].firstTriangle},
-      second{.first = scene.parts[2].firstTriangle};
-  frame.begin();
-  voxelizer.add(frame, resting, nullptr, first);
-  voxelizer.run(frame, joined);
-  for (int i = 0; i < 2; ++i) {
-    joined.clear();
-    voxelizer.add(frame, joined, nullptr, second);
-    joined.finishWith(resting);
+  for (const VoxelSums sums : {VoxelSums::Occupied, VoxelSums::All}) {
+    VolumeAttributes attributes = kAll, rest = kAll;
+    attributes.sums = rest.sums = sums;
+    rest.joined = true;
+    const Volume resting(context(), grid, gpuScene.anchor(), rest),
+        joined(context(), grid, gpuScene.anchor(), attributes),
+        whole(context(), grid, gpuScene.anchor(), attributes);
+    const Voxelizer voxelizer(frame, Coverage::Thin, whole);
+    const VoxelizedPart first{.spans = {{.first = 0, .end = scene.parts[2].firstTriangle}}},
+        second{.spans = {{.first = scene.parts[2].firstTriangle}}, .base = &resting};
+    frame.begin();
+    voxelizer.gather(frame, resting, first);
+    voxelizer.run(frame, joined);
+    for (int i = 0; i < 2; ++i) voxelizer.run(frame, joined, second);
+    voxelizer.run(frame, whole);
+    frame.end();
+    expectEqual(joined, whole);
   }
-  voxelizer.run(frame, whole);
-  frame.end();
-  EXPECT_EQ(joined.readOccupied(), whole.readOccupied());
-  for (size_t i = 0; i < kVoxelAttributes; ++i)
-    for (int z = 0; z < grid.resolution.z; ++z)
-      EXPECT_EQ(joined.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data,
-                whole.attachment(static_cast<VoxelAttribute>(i)).readLayer(z).data);
+}
+
+// Sums of occupied voxels alone are those of all, to the last bit, in as much room as there are such voxels.
+TEST_F(VoxelAttributesTest, SumsOfOccupiedVoxelsAreThoseOfAll) {
+  const scene::Scene scene = litCorner();
+  const VoxelGrid grid = tightGrid(scene.bounds(), 24);
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {16, 16});
+  for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin, Coverage::Conservative}) {
+    VolumeAttributes all = kAll, occupied = kAll;
+    occupied.sums = VoxelSums::Occupied;
+    occupied.mostOccupied = countOccupied(frame, grid, coverage);
+    const Volume dense(context(), grid, gpuScene.anchor(), all),
+        compact(context(), grid, gpuScene.anchor(), occupied);
+    frame.begin();
+    Voxelizer(frame, coverage, dense).run(frame, dense);
+    const Voxelizer voxelizer(frame, coverage, compact);
+    for (int i = 0; i < 2; ++i) voxelizer.run(frame, compact);
+    frame.end();
+    expectEqual(compact, dense);
+    EXPECT_EQ(compact.withoutSums(), 0);
+    EXPECT_EQ(compact.sums()->bytes() * grid.count(), dense.sums()->bytes() * occupied.mostOccupied);
+    EXPECT_LT(compact.bytes(), dense.bytes());
+  }
+}
+
+// Without room for all voxels' sums some have no attributes: their number is told, the others are right.
+TEST_F(VoxelAttributesTest, VoxelsBeyondTheRoomForSumsAreCounted) {
+  const scene::Scene scene = litCorner();
+  const VoxelGrid grid = tightGrid(scene.bounds(), 24);
+  VolumeAttributes tight = kAll;
+  tight.sums = VoxelSums::Occupied;
+  tight.mostOccupied = 300;
+  voxelize(scene, grid, Coverage::Thin, tight, [&](const Volume& volume) {
+    const int64_t all = std::ranges::count(volume.readOccupied(), uint8_t{1});
+    EXPECT_GT(all, 400);
+    EXPECT_EQ(volume.withoutSums(), all - 300);
+    int64_t with = 0;
+    for (int z = 0; z < grid.resolution.z; ++z) {
+      const Image image = volume.attachment(VoxelAttribute::Occupancy).readLayer(z);
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) with += image.at(x, y, 1) > 0.0F ? 1 : 0;
+    }
+    EXPECT_EQ(with, 300);
+  });
 }
 
 // 1,024 bits a voxel: eight attachments of four floats (Gaitatzes 2012, section 6.2); half of that in 16

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/techniques/incremental_voxelization/incremental_update.h"
+
+namespace limen::techniques {
+
+IncrementalUpdate::IncrementalUpdate(gl::Context& context, const Settings& settings,
+                                     const voxels::SampledVolume& volume, int views, int used)
+    : injection_(context, settings.points, volume, views, used) {
+  if (settings.kept)
+    cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
+  else
+    forget_.emplace(context, volume);
+}
+
+void IncrementalUpdate::run(frame::Frame& frame, const voxels::SampledVolume& volume,
+                            const std::vector<voxels::DepthView>& views,
+                            const voxels::SampleLighting& lighting, int step,
+                            voxels::MovingBricks* only) const {
+  {
+    const auto scope = frame.passes().open("incremental_voxelization/clean_up");
+    const glm::dvec3 anchor = frame.gpuScene().anchor();
+    if (forget_) {
+      forget_->run(volume);
+    } else if (only) {
+      cleanUp_->run(volume, views, anchor, only->list(), only->count());
+      only->add(frame.timeS());
+    } else {
+      cleanUp_->run(volume, views, anchor);
+    }
+  }
+  const auto scope = frame.passes().open("incremental_voxelization/inject");
+  injection_.run(frame, volume, views, lighting, step);
+}
+
+}  // namespace limen::techniques
