@@ -75,19 +75,24 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   sums_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, 12 * size.z * sets);
   for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));
   const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
-  for (std::optional<gl::Texture>* texture : {&source_, &field_, &next_})
-    texture->emplace(format, glm::ivec2(size), 1, 3 * size.z);
+  source_.emplace(format, glm::ivec2(size), 1, 3 * size.z);
+  fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z);
+  lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
   const bool summed = settings.sources == LightSources::Once;
   arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
   arrived_->clear(glm::vec4(0.0F));
   if (std::holds_alternative<MomentTransport>(settings.transport)) {
-    static const Image kTable = shareTable();
-    shares_.emplace(gl::Format::RGBA32F, glm::ivec2(kTable.width, kTable.height), 1, 0, gl::Sampling::Linear);
+    static const std::vector<float> kTable = shareTable();
+    const glm::ivec3 sides(kShareSide, kShareSide, kShareLevels * 6);
+    if (settings.format == FieldFormat::Half)
+      shares_.emplace(gl::VolumeTexture::ofSignedShares(sides));
+    else
+      shares_.emplace(gl::Format::RGBA32F, sides, 1);
     shares_->write(kTable);
   }
-  frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes());
+  frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
   frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
-  frame.passes().setBytesHeld(kPropagatePass, field_->bytes() + next_->bytes());
+  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes());
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
@@ -98,7 +103,10 @@ void LightGrid::compile(frame::Frame& frame) {
   inject_ = &programs.compute(kLightGridFolder + "inject.comp.glsl", defines);
   defines = volume_->defines();
   defines["FIELD_FORMAT"] = settings_.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
-  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", defines);
+  gl::ShaderDefines seeding = defines;
+  seeding["FIELD_TOO"] = "1";
+  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", seeding);
+  cells_ = &programs.compute(kLightGridFolder + "light_cells.comp.glsl", defines);
   for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
     defines["TRANSPORT_" + std::string(name)] = std::to_string(std::string(name) == "MOMENTS" ? 0
                                                                : std::string(name) == "FACES" ? 1
@@ -114,6 +122,7 @@ void LightGrid::compile(frame::Frame& frame) {
   defineEnum(defines, "REFLECTION", settings_.reflection);
   defineEnum(defines, "ALBEDO", settings_.albedo);
   if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
+  if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
   for (const gl::Program* program : {propagate_, arrive_}) {
     if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
@@ -128,8 +137,8 @@ void LightGrid::compile(frame::Frame& frame) {
 }
 
 int64_t LightGrid::bytes() const {
-  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + field_->bytes() +
-         next_->bytes() + arrived_->bytes();
+  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + fields_->bytes() +
+         lightCells_->bytes() + arrived_->bytes();
 }
 
 void LightGrid::update(frame::Frame& frame) {
@@ -143,15 +152,14 @@ void LightGrid::update(frame::Frame& frame) {
   voxelize(frame);
   {
     const auto scope = frame.passes().open(kInjectPass);
-    inject(frame, restarts ? -1 : static_cast<int>(number % 3));
+    inject(frame, restarts ? -1 : static_cast<int>(number % 3), restarts);
   }
   const auto scope = frame.passes().open(kPropagatePass);
-  if (restarts) begun_ = false;
-  restartSteps();
   const bool lasting = settings_.sources == LightSources::Steady;
+  restartSteps(lasting);
   for (int step = 0; step < settings_.iterations; ++step) {
     if (!lasting) arrive(step == 0);
-    propagate(lasting);
+    propagate();
   }
   if (lasting || settings_.iterations == 0) arrive(true);
 }
@@ -159,9 +167,8 @@ void LightGrid::update(frame::Frame& frame) {
 void LightGrid::start(frame::Frame& frame) {
   place(frame);
   voxelize(frame);
-  inject(frame, -1);
-  begun_ = false;
-  restartSteps();
+  inject(frame, -1, true);
+  restartSteps(false);
 }
 
 bool LightGrid::place(const frame::Frame& frame) {
@@ -184,9 +191,13 @@ void LightGrid::configureBounds(const gl::Program& program) const {
 void LightGrid::voxelize(frame::Frame& frame) {
   const auto scope = frame.passes().open(kVoxelizePass);
   voxelizer_->run(frame, *volume_);
+  configureBounds(*cells_);
+  lightCells_->bindImage(kLightCellsImage, gl::Access::Write);
+  cells_->use();
+  overVoxels(volume_->grid().resolution);
 }
 
-void LightGrid::inject(frame::Frame& frame, int axis) {
+void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
   counts_.clearUint(0);
   configureSurfaceLight(*inject_, frame, lighting_);
   configureBounds(*inject_);
@@ -207,55 +218,65 @@ void LightGrid::inject(frame::Frame& frame, int axis) {
   seed_->set("sumSets", static_cast<int>(sumsOfAxis_.size()));
   sums_->bindImage(kInjectSumsImage, gl::Access::Read);
   source_->bindImage(kPropagateOutImage, gl::Access::Write);
+  fields_->bindImage(kSeedFieldImage, gl::Access::Write);
+  if (restart) from_ = 0;
+  seed_->set("restart", restart ? 1 : 0);
   seed_->use();
   const glm::ivec3 size = volume_->grid().resolution;
   overVoxels({size.x, size.y, 3 * size.z});
 }
 
-void LightGrid::restartSteps() {
+void LightGrid::restartSteps(bool lasting) {
   step_ = 0;
   if (settings_.stopBelow > 0.0) {
     changes_.clearUint(0);
     propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
   }
-  configureBounds(*arrive_);
-  configureBounds(*propagate_);
+  for (const gl::Program* program : {arrive_, propagate_}) {
+    volume_->configure(*program);
+    program->set("from", from_);
+  }
+  propagate_->set("lasting", lasting ? 1 : 0);
   if (shares_) shares_->bindTexture(kShareTableUnit);
+  lightCells_->bindTexture(kLightCellsUnit);
+  fields_->bindTexture(kPropagateFieldUnit);
   source_->bindTexture(kPropagateSourceUnit);
+  fields_->bindImage(kPropagateOutImage, gl::Access::Write);
+  arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
 }
 
-void LightGrid::propagate(bool lasting) {
-  current().bindTexture(kPropagateFieldUnit);
-  next_->bindImage(kPropagateOutImage, gl::Access::Write);
-  propagate_->set("lasting", lasting ? 1 : 0);
+void LightGrid::propagate() {
   if (settings_.stopBelow > 0.0) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     changes_.bindStorage(kPropagateChangesBuffer);
     propagate_->set("step_", step_);
   }
+  propagate_->set("from", from_);
   propagate_->use();
   const glm::ivec3 size = volume_->grid().resolution;
   overVoxels({size.x, size.y, 3 * size.z});
-  std::swap(field_, next_);
-  begun_ = true;
+  from_ = 1 - from_;
   ++step_;
 }
 
 void LightGrid::arrive(bool first) {
-  current().bindTexture(kPropagateFieldUnit);
-  arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
+  arrive_->set("from", from_);
   arrive_->set("first", first ? 1 : 0);
   arrive_->use();
-  overVoxels(volume_->grid().resolution);
+  const glm::ivec3 size = volume_->grid().resolution;
+  overVoxels({size.x, size.y, 6 * size.z});
+}
+
+Image LightGrid::fieldLayer(int channel, int z) const {
+  return fields_->readLayer((3 * from_ + channel) * volume_->grid().resolution.z + z);
 }
 
 glm::dvec3 LightGrid::flux() const {
-  const int depth = volume_->grid().resolution.z;
   const double h = volume_->grid().voxelSize;
   glm::dvec3 out(0.0);
   for (int channel = 0; channel < 3; ++channel)
-    for (int z = 0; z < depth; ++z) {
-      const Image layer = current().readLayer(channel * depth + z);
+    for (int z = 0; z < volume_->grid().resolution.z; ++z) {
+      const Image layer = fieldLayer(channel, z);
       for (size_t i = 0; i < layer.pixels(); ++i) out[channel] += layer.data[4 * i];
     }
   return h * h * out;

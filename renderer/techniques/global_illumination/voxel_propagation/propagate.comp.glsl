@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A step: what each voxel's neighbours send it. Light goes on in empty voxels; what goes from an empty voxel to an occupied one is
 // partly let through, and partly comes back at once, so that opaque voxels hold no light and cannot pass it on.
-#include "renderer/techniques/global_illumination/voxel_propagation/light_bounds.glsl"
+//
+// A step lasts as long as its chain of dependent fetches: the voxel's word and all lights first, then all shares of these.
+#include "renderer/techniques/global_illumination/voxel_propagation/light_cells.glsl"
 #include "renderer/techniques/global_illumination/voxel_propagation/transport.glsl"
+#include "renderer/voxels/volume.glsl"
 
 layout(local_size_x = kPropagateGroup, local_size_y = kPropagateGroup, local_size_z = kPropagateGroup) in;
-layout(binding = kPropagateFieldUnit) uniform sampler2DArray field;
-layout(binding = kPropagateSourceUnit) uniform sampler2DArray source;
+// Two fields, of which a step reads one and writes the other. Layer: (field * 3 + channel) * depth + z.
+layout(binding = kPropagateFieldUnit) uniform sampler2DArray fields;
 layout(binding = kPropagateOutImage, FIELD_FORMAT) uniform writeonly image2DArray next;
+layout(binding = kPropagateSourceUnit) uniform sampler2DArray source;
+uniform int from;      // the field to read
 uniform bool lasting;  // sources
 #ifdef STOPS
 layout(std430, binding = kPropagateChangesBuffer) buffer Changes { uint changes[]; };  // bits of floats, a step each
@@ -39,38 +44,46 @@ void main() {
 #ifdef STOPS
   if (step_ > 0 && uintBitsToFloat(changes[step_ - 1]) <= stopBelow) return;
 #endif
-  const int channel = at.z / gridSizeZ;
-  const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), toLayer = ivec3(0, 0, channel * gridSizeZ);
-  const bool solid = isOccupied(voxel);
-  if (!solid && !isOpen(voxel)) {
-    imageStore(next, at, vec4(0.0));
-    return;
+  const int channel = at.z / gridSizeZ, read = (3 * from + channel) * gridSizeZ, write = 3 * (1 - from) * gridSizeZ;
+  const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), last = gridSize() - 1;
+  const uint cell = texelFetch(lightCells, voxel, 0).x;
+  const vec4 own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0), lit = texelFetch(source, at, 0);
+  // From the side of each face.
+  vec4 beside[6];
+  for (int face = 0; face < 6; ++face) {
+    const ivec3 there = clamp(voxel + ivec3(faceDirection(face)), ivec3(0), last);
+    beside[face] = texelFetch(fields, ivec3(there.xy, read + there.z), 0);
   }
-  const vec4 own = texelFetch(field, at, 0);
+  const bool solid = holdsSurface(cell);
+  vec4 moved[6];
+  for (int face = 0; face < 6; ++face) {
+    const bool back = !solid && besideSurface(cell, face);
+    moved[face] = leaving(back ? own : beside[face], back ? face : face ^ 1);
+  }
+  vec4 sum = lasting ? lit : vec4(0.0);
   const float passing = solid ? 1.0 - texelFetch(volumeNormal, voxel, 0).w : 1.0;
-  vec4 sum = lasting ? texelFetch(source, at, 0) : vec4(0.0);
-  if (passing > 0.0)
-    for (int face = 0; face < 6; ++face) {
-      const ivec3 direction = ivec3(faceDirection(face)), from = voxel - direction;
-      if (!isInGrid(from)) continue;
-      if (!isOccupied(from)) {
-        sum += passing * leaving(texelFetch(field, from + toLayer, 0), face);
-        continue;
-      }
-      const vec4 surface = texelFetch(volumeNormal, from, 0);
-      // What has entered a transparent surface is not held up within it.
-      if (surface.w < 1.0) sum += leaving(texelFetch(field, from + toLayer, 0), face);
-      if (solid || surface.w == 0.0) continue;
-#if ALBEDO == ALBEDO_STORED
-      const float albedo = texelFetch(volumeAlbedo, from, 0)[channel];
-#else
-      const float albedo = 0.5;
-#endif
-      const vec4 away = leaving(own, face ^ 1);
-      if (away.x > 0.0) sum += albedo * reflected(away, -vec3(direction), surface.xyz);
+  for (int face = 0; face < 6; ++face) {
+    if (!besideSurface(cell, face)) {
+      if (besideLight(cell, face)) sum += passing * moved[face];
+      continue;
     }
-  imageStore(next, at, sum);
+#ifdef TRANSPARENT
+    // What has entered a transparent surface is not held up within it.
+    if (besideLight(cell, face)) sum += solid ? moved[face] : leaving(beside[face], face ^ 1);
+#endif
+    if (solid) continue;
+    const ivec3 there = voxel + ivec3(faceDirection(face));
+    const vec4 surface = texelFetch(volumeNormal, there, 0);
+#if ALBEDO == ALBEDO_STORED
+    const float albedo = texelFetch(volumeAlbedo, there, 0)[channel];
+#else
+    const float albedo = 0.5;
+#endif
+    if (surface.w > 0.0 && moved[face].x > 0.0) sum += albedo * reflected(moved[face], faceDirection(face), surface.xyz);
+  }
+  if (!holdsLight(cell)) sum = vec4(0.0);
+  imageStore(next, ivec3(at.xy, write + at.z), sum);
 #ifdef STOPS
-  atomicMax(changes[step_], floatBitsToUint(abs(sum.x - own.x)));
+  if (holdsLight(cell)) atomicMax(changes[step_], floatBitsToUint(abs(sum.x - own.x)));
 #endif
 }

@@ -11,6 +11,7 @@ layout(binding = kReconstructOutImage, rgba32f) uniform writeonly image2D pictur
 uniform ivec2 sizePx;
 uniform bool withDirect, withIndirect;
 #include "renderer/techniques/global_illumination/surface_light.glsl"
+#include "renderer/techniques/global_illumination/voxel_propagation/light_cells.glsl"
 #include "renderer/voxels/volume.glsl"
 
 // Light that a voxel's face adds to a surface of this cosine to it. By faces, squares of cosines: they sum to 1. By harmonics, the
@@ -23,73 +24,109 @@ float faceWeight(float cosine) { return cosine > 1e-3 ? cosine * cosine : 0.0; }
 float faceWeight(float cosine) { return (1.0 + 2.0 * cosine) / 3.0; }
 #endif
 
+ivec3 faceStep(int face) {
+  const int axis = face >> 1;
+  return ((face & 1) == 0 ? 1 : -1) * ivec3(axis == 0, axis == 1, axis == 2);
+}
+
+uint cellAt(ivec3 voxel) { return isInGrid(voxel) ? texelFetch(lightCells, voxel, 0).x : 0u; }
+
+vec4 lightOf(ivec3 voxel, int face) { return texelFetch(arrived, voxel + ivec3(0, 0, face * gridSizeZ), 0); }
+
 #if INTERPOLATION == INTERPOLATION_VISIBLE
 // Whether no surface is between a point and the middle of the empty voxel beyond a face.
 bool seesVoxel(SurfacePoint point, ivec3 voxel) {
   const vec3 middle = gridOrigin + (vec3(voxel) + 0.5) * voxelSize;
   return !rayAnyHit(Ray(point.position, middle - point.position, 0.0, 1.0, point.triangle));
 }
-#endif
 
-ivec3 faceStep(int face) {
+// Another wall that stands on this one may hide voxels of the 8 around a point: only then must any be looked at.
+bool isDoubtful(ivec3 low, int face) {
   const int axis = face >> 1;
-  return ((face & 1) == 0 ? 1 : -1) * ivec3(axis == 0, axis == 1, axis == 2);
+  const ivec3 front = low + ((face & 1) == 0 ? 1 : 0) * ivec3(axis == 0, axis == 1, axis == 2);
+  const ivec3 u = ivec3(axis == 2, axis == 0, axis == 1), v = ivec3(axis == 1, axis == 2, axis == 0);
+  const uint cells[4] = uint[4](cellAt(front), cellAt(front + u), cellAt(front + v), cellAt(front + u + v));
+  bool doubtful = false;
+  for (int i = 0; i < 4; ++i) doubtful = doubtful || (holdsSurface(cells[i]) && besideSurface(cells[i], face));
+  return doubtful;
 }
+
+// Voxels of the 8 that a point in voxel `own` surely sees what is beyond: what is in front of its own voxel is empty, and so is the
+// way from there to a neighbour, or one of both ways to a diagonal one is.
+struct Surroundings {
+  ivec3 own;
+  bool open, openU, openV;
+};
+Surroundings surroundingsOf(ivec3 low, vec3 part, int face) {
+  const int axis = face >> 1;
+  const ivec3 u = ivec3(axis == 2, axis == 0, axis == 1), v = ivec3(axis == 1, axis == 2, axis == 0);
+  const ivec3 upper = ivec3(greaterThanEqual(part, vec3(0.5))), own = low + upper, other = 1 - 2 * upper;
+  return Surroundings(own, !besideSurface(cellAt(own), face), !besideSurface(cellAt(own + u * other), face),
+                      !besideSurface(cellAt(own + v * other), face));
+}
+bool isSurelySeen(Surroundings near, ivec3 voxel, int face) {
+  const int axis = face >> 1;
+  const ivec3 away = voxel - near.own;
+  if (away[axis] != 0 || !near.open) return false;
+  return away[(axis + 1) % 3] == 0 || away[(axis + 2) % 3] == 0 || (near.openU && near.openV);
+}
+
+// The nearest of all voxels around that a point sees.
+vec4 nearestSeen(SurfacePoint point, vec3 at, int face) {
+  const ivec3 own = ivec3(floor(at + 0.5)), forward = faceStep(face);
+  float nearest = 1e30;
+  vec4 found = vec4(0.0);
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const ivec3 voxel = own + ivec3(x, y, z);
+        const vec3 away = vec3(voxel) - at;
+        if (dot(away, away) >= nearest || !isInGrid(voxel)) continue;
+        const vec4 light = lightOf(voxel, face);
+        if (light.a == 0.0 || !seesVoxel(point, voxel + forward)) continue;
+        nearest = dot(away, away);
+        found = vec4(light.rgb, 1.0);
+      }
+  return found;
+}
+#endif
 
 // Mean light at one face of the voxels around; alpha: 0 where there is none.
 vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
-  const ivec3 low = ivec3(floor(at)), forward = faceStep(face);
+  const ivec3 low = ivec3(floor(at)), last = gridSize() - 1;
   const vec3 part = at - vec3(low);
+  // All that the 8 voxels hold at once: what is fetched one after another is waited for one after another.
+  vec4 lights[8];
+  for (int corner = 0; corner < 8; ++corner)
+    lights[corner] = lightOf(clamp(low + ivec3(corner & 1, corner >> 1 & 1, corner >> 2), ivec3(0), last), face);
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-  // Another wall that stands on this one may hide voxels of the 8: only then do rays decide.
-  bool doubtful = false;
-  for (int corner = 0; corner < 8; ++corner) {
-    const ivec3 upper = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    if ((upper[face >> 1] == 1) != ((face & 1) == 0)) continue;
-    doubtful = doubtful || (isOccupied(low + upper) && isOccupied(low + upper + forward));
-  }
+  const bool doubtful = isDoubtful(low, face);
+  Surroundings near;
+  if (doubtful) near = surroundingsOf(low, part, face);
 #endif
   vec4 sum = vec4(0.0);
   for (int corner = 0; corner < 8; ++corner) {
     const ivec3 upper = ivec3(corner & 1, corner >> 1 & 1, corner >> 2), voxel = low + upper;
-    if (!isInGrid(voxel)) continue;
-    const bool solid = isOccupied(voxel);
-#if INTERPOLATION != INTERPOLATION_ALL
-    if (!solid) continue;
-#endif
     const vec3 axes = mix(1.0 - part, part, vec3(upper));
     float share = axes.x * axes.y * axes.z;
-    if (!(share > 1e-5)) continue;  // no more than rounding of the position
-    vec4 light = vec4(0.0);
-    if (solid) light = texelFetch(arrived, voxel + ivec3(0, 0, face * gridSizeZ), 0);
+    if (!(share > 1e-5) || !isInGrid(voxel)) continue;  // no more than rounding of the position
+    vec4 light = lights[corner];
 #if GATHER == GATHER_FACES && INTERPOLATION != INTERPOLATION_ALL
     share *= light.a;
-#elif GATHER == GATHER_REFLECTED
-    if (solid) light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
+#elif INTERPOLATION != INTERPOLATION_ALL
+    if (!holdsSurface(cellAt(voxel))) continue;
+#endif
+#if GATHER == GATHER_REFLECTED
+    light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
 #endif
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-    if (doubtful && light.a > 0.0 && share > 0.0 && !seesVoxel(point, voxel + forward)) continue;
+    if (doubtful && light.a > 0.0 && share > 0.0 && !isSurelySeen(near, voxel, face) && !seesVoxel(point, voxel + faceStep(face)))
+      continue;
 #endif
     sum += share * vec4(light.rgb, 1.0);
   }
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-  // None: the nearest of those farther around.
-  if (!(sum.a > 1e-4)) {
-    sum = vec4(0.0);
-    const ivec3 own = ivec3(floor(at + 0.5));
-    float nearest = 1e30;
-    for (int z = -1; z <= 1; ++z)
-      for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-          const ivec3 voxel = own + ivec3(x, y, z);
-          const vec3 away = vec3(voxel) - at;
-          if (dot(away, away) >= nearest || !isInGrid(voxel) || !isOccupied(voxel)) continue;
-          const vec4 light = texelFetch(arrived, voxel + ivec3(0, 0, face * gridSizeZ), 0);
-          if (light.a == 0.0 || !seesVoxel(point, voxel + forward)) continue;
-          nearest = dot(away, away);
-          sum = vec4(light.rgb, 1.0);
-        }
-  }
+  if (!(sum.a > 1e-4)) sum = nearestSeen(point, at, face);
 #endif
   return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }

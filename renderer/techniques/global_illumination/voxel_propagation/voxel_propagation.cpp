@@ -109,6 +109,7 @@ class VoxelPropagation : public Technique {
     reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
     ids.bindTexture(kReconstructIdsUnit);
     light_->arrived().bindTexture(kReconstructArrivedUnit);
+    light_->lightCells().bindTexture(kLightCellsUnit);
     picture_->bindImage(kReconstructOutImage, gl::Access::Write);
     reconstruct_->dispatch(frame.sizePx());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -125,7 +126,7 @@ class VoxelPropagation : public Technique {
     const double injected = meanFlux();
     double before = injected, largest = 0.0, last = 0.0;
     for (int step = 0; step < settings_.grid.iterations; ++step) {
-      light_->propagate(false);
+      light_->propagate();
       const double after = meanFlux();
       last = before > 0.0 ? after / before : 0.0;
       largest = std::max(largest, last);
@@ -149,7 +150,7 @@ class VoxelPropagation : public Technique {
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
     {.name = "global_illumination/voxel_propagation",
-     .version = 1,
+     .version = 2,
      .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
      .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
      .product = ProductKind::Colour,

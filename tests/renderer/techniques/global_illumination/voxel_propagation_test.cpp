@@ -169,7 +169,7 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
       frame.begin();
       grid.start(frame);
       const double before = grid.flux().g;
-      for (int step = 0; step < 256; ++step) grid.arrive(step == 0), grid.propagate(false);
+      for (int step = 0; step < 256; ++step) grid.arrive(step == 0), grid.propagate();
       EXPECT_LT(grid.flux().g, 1e-3 * before);
       const voxels::VoxelGrid& voxels = grid.volume().grid();
       double arrived = 0.0;
