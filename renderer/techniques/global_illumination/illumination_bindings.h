@@ -39,6 +39,7 @@ const int kCellBesideSurface = 0;  // the voxel beyond the face is occupied
 const int kCellBesideLight = 6;    // it may hold light
 const int kCellSurface = 12;
 const int kCellLight = 13;
+const int kCellEdge = 14;  // surfaces of several directions: an edge, a thin wall
 const uint kPropagateChangesBuffer = 8u;
 const uint kPropagateSumImage = 2u;
 const int kReflectiveRayGroup = 64;

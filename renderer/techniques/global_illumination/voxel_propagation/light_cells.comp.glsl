@@ -13,6 +13,8 @@ void main() {
   const ivec3 voxel = ivec3(gl_GlobalInvocationID);
   if (!isInGrid(voxel)) return;
   uint cell = (isOccupied(voxel) ? 1u << kCellSurface : 0u) | (mayHoldLight(voxel) ? 1u << kCellLight : 0u);
+  // The mean of unit normals within some 11 degrees of each other is longer.
+  if (isOccupied(voxel) && length(texelFetch(volumeNormal, voxel, 0).xyz) < 0.98) cell |= 1u << kCellEdge;
   for (int face = 0; face < 6; ++face) {
     const int axis = face >> 1;
     const ivec3 beside = voxel + ((face & 1) == 0 ? 1 : -1) * ivec3(axis == 0, axis == 1, axis == 2);

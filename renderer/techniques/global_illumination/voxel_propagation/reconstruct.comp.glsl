@@ -40,19 +40,9 @@ bool seesVoxel(SurfacePoint point, ivec3 voxel) {
   return !rayAnyHit(Ray(point.position, middle - point.position, 0.0, 1.0, point.triangle));
 }
 
-// Another wall that stands on this one may hide voxels of the 8 around a point: only then must any be looked at.
-bool isDoubtful(ivec3 low, int face) {
-  const int axis = face >> 1;
-  const ivec3 front = low + ((face & 1) == 0 ? 1 : 0) * ivec3(axis == 0, axis == 1, axis == 2);
-  const ivec3 u = ivec3(axis == 2, axis == 0, axis == 1), v = ivec3(axis == 1, axis == 2, axis == 0);
-  const uint cells[4] = uint[4](cellAt(front), cellAt(front + u), cellAt(front + v), cellAt(front + u + v));
-  bool doubtful = false;
-  for (int i = 0; i < 4; ++i) doubtful = doubtful || (holdsSurface(cells[i]) && besideSurface(cells[i], face));
-  return doubtful;
-}
-
-// Voxels of the 8 that a point in voxel `own` surely sees what is beyond: what is in front of its own voxel is empty, and so is the
-// way from there to a neighbour, or one of both ways to a diagonal one is.
+// Voxels of the 8 around a point of which it surely sees what is beyond, so that no ray is needed: there is one wall alone in its own
+// voxel and in them, what is in front of its own voxel is empty, and so is the way from there to a neighbour, or both ways to a
+// diagonal one are.
 struct Surroundings {
   ivec3 own;
   bool open, openU, openV;
@@ -61,13 +51,14 @@ Surroundings surroundingsOf(ivec3 low, vec3 part, int face) {
   const int axis = face >> 1;
   const ivec3 u = ivec3(axis == 2, axis == 0, axis == 1), v = ivec3(axis == 1, axis == 2, axis == 0);
   const ivec3 upper = ivec3(greaterThanEqual(part, vec3(0.5))), own = low + upper, other = 1 - 2 * upper;
-  return Surroundings(own, !besideSurface(cellAt(own), face), !besideSurface(cellAt(own + u * other), face),
-                      !besideSurface(cellAt(own + v * other), face));
+  const uint cell = cellAt(own), besideU = cellAt(own + u * other), besideV = cellAt(own + v * other);
+  return Surroundings(own, !besideSurface(cell, face) && !holdsEdge(cell), !besideSurface(besideU, face),
+                      !besideSurface(besideV, face));
 }
 bool isSurelySeen(Surroundings near, ivec3 voxel, int face) {
   const int axis = face >> 1;
   const ivec3 away = voxel - near.own;
-  if (away[axis] != 0 || !near.open) return false;
+  if (away[axis] != 0 || !near.open || holdsEdge(cellAt(voxel))) return false;
   return away[(axis + 1) % 3] == 0 || away[(axis + 2) % 3] == 0 || (near.openU && near.openV);
 }
 
@@ -100,9 +91,7 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
   for (int corner = 0; corner < 8; ++corner)
     lights[corner] = lightOf(clamp(low + ivec3(corner & 1, corner >> 1 & 1, corner >> 2), ivec3(0), last), face);
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-  const bool doubtful = isDoubtful(low, face);
-  Surroundings near;
-  if (doubtful) near = surroundingsOf(low, part, face);
+  const Surroundings near = surroundingsOf(low, part, face);
 #endif
   vec4 sum = vec4(0.0);
   for (int corner = 0; corner < 8; ++corner) {
@@ -120,8 +109,7 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
     light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
 #endif
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-    if (doubtful && light.a > 0.0 && share > 0.0 && !isSurelySeen(near, voxel, face) && !seesVoxel(point, voxel + faceStep(face)))
-      continue;
+    if (light.a > 0.0 && !isSurelySeen(near, voxel, face) && !seesVoxel(point, voxel + faceStep(face))) continue;
 #endif
     sum += share * vec4(light.rgb, 1.0);
   }
