@@ -14,6 +14,10 @@ const uint kPathSumsImage = 0u;
 const uint kPathSumsUnit = 0u;
 const uint kPathPictureImage = 0u;
 
+// Pictures of indirect light.
+const uint kIndirectIdsUnit = 0u;
+const uint kIndirectPictureImage = 0u;
+
 // Light in voxels. Fields are arrays of 3 channels of as many layers as the grid has. Units 12 to 14 are the volume's, storage
 // buffers 0 to 7 the scene's and its tree's.
 struct InjectCounts {  // std430
@@ -44,9 +48,7 @@ const uint kPropagateChangesBuffer = 8u;
 const uint kPropagateSumImage = 2u;
 const int kReflectiveRayGroup = 64;
 const uint kArriveFacesImage = 0u;
-const uint kReconstructIdsUnit = 0u;
 const uint kReconstructArrivedUnit = 1u;
-const uint kReconstructOutImage = 0u;
 // Pyramid of voxels' radiance: sums of a voxel, of each face its area and three channels; six faces' textures and images.
 const uint kFaceSums = 24u;
 const uint kFaceSumsBuffer = 8u;

@@ -11,6 +11,7 @@
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/light_box.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_dispatch.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/lobe_shares.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/surface_samples.h"
 
@@ -23,13 +24,6 @@ constexpr const char* kPropagatePass = "global_illumination/propagate";
 constexpr const char* kArrivePass = "global_illumination/arrive";
 
 const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
-
-void overVoxels(glm::ivec3 size) {
-  const glm::ivec3 groups = (size + kPropagateGroup - 1) / kPropagateGroup;
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-}
 
 voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& settings) {
   if (const auto* box = std::get_if<BoxAroundCamera>(&settings.box)) {
@@ -194,7 +188,7 @@ void LightGrid::voxelize(frame::Frame& frame) {
   configureBounds(*cells_);
   lightCells_->bindImage(kLightCellsImage, gl::Access::Write);
   cells_->use();
-  overVoxels(volume_->grid().resolution);
+  dispatchVoxels(volume_->grid().resolution);
 }
 
 void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
@@ -223,7 +217,7 @@ void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
   seed_->set("restart", restart ? 1 : 0);
   seed_->use();
   const glm::ivec3 size = volume_->grid().resolution;
-  overVoxels({size.x, size.y, 3 * size.z});
+  dispatchVoxels({size.x, size.y, 3 * size.z});
 }
 
 void LightGrid::restartSteps(bool lasting) {
@@ -254,7 +248,7 @@ void LightGrid::propagate() {
   propagate_->set("from", from_);
   propagate_->use();
   const glm::ivec3 size = volume_->grid().resolution;
-  overVoxels({size.x, size.y, 3 * size.z});
+  dispatchVoxels({size.x, size.y, 3 * size.z});
   from_ = 1 - from_;
   ++step_;
 }
@@ -264,7 +258,7 @@ void LightGrid::arrive(bool first) {
   arrive_->set("first", first ? 1 : 0);
   arrive_->use();
   const glm::ivec3 size = volume_->grid().resolution;
-  overVoxels({size.x, size.y, 6 * size.z});
+  dispatchVoxels({size.x, size.y, 6 * size.z});
 }
 
 Image LightGrid::fieldLayer(int channel, int z) const {

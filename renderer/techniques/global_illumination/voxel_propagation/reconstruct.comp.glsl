@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Indirect light of each pixel's point from the light that arrived at the faces of the occupied voxels around it, and its direct
 // light. Source: Gaitatzes 2012, section 5.5.3, equations 12 to 15.
-#include "renderer/techniques/global_illumination/illumination_bindings.h"
-
-layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
-layout(binding = kReconstructIdsUnit) uniform usampler2D triangleIds;
-layout(binding = kReconstructArrivedUnit) uniform sampler2DArray arrived;
-layout(binding = kReconstructOutImage, rgba32f) uniform writeonly image2D picture;
-
-uniform ivec2 sizePx;
-uniform bool withDirect, withIndirect;
-#include "renderer/techniques/global_illumination/surface_light.glsl"
+#include "renderer/techniques/global_illumination/indirect_picture.glsl"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_cells.glsl"
 #include "renderer/voxels/volume.glsl"
+
+layout(binding = kReconstructArrivedUnit) uniform sampler2DArray arrived;
 
 // Light that a voxel's face adds to a surface of this cosine to it. By faces, squares of cosines: they sum to 1. By harmonics, the
 // product of the surface's clamped cosine with the lobe that has arrived, a clamped cosine as well, scaled so that what
@@ -119,8 +112,7 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
   return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
-// Reflected irradiance over pi.
-vec3 gatheredLight(SurfacePoint point, vec3 albedo) {
+vec3 indirectLight(SurfacePoint point, vec3 albedo) {
   const vec3 at = toVoxels(point.position) - 0.5;
   vec3 result = vec3(0.0);
   float known = 0.0;
@@ -140,20 +132,4 @@ vec3 gatheredLight(SurfacePoint point, vec3 albedo) {
 #else
   return albedo * max(result, 0.0) / 3.14159265;
 #endif
-}
-
-void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, sizePx))) return;
-  const uint id = texelFetch(triangleIds, pixel, 0).x;
-  vec3 colour = vec3(0.0);
-  if (id != kRayNoTriangle) {
-    SeenPoint seen;
-    const SurfacePoint point = surfaceSeen(pixel, id, seen);
-    const vec3 albedo = reflectance(point);
-    if (withDirect) colour += emitted(point) + albedo * lampRadiance(point);
-    if (withIndirect) colour += gatheredLight(point, albedo);
-    if (rayCutShort) colour = vec3(uintBitsToFloat(0x7fc00000u));
-  }
-  imageStore(picture, pixel, vec4(colour, 1.0));
 }

@@ -18,14 +18,11 @@
 // a
 //   thin wall would else have the light of its other side.
 // - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <optional>
 
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
-#include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/indirect_picture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
 #include "renderer/techniques/technique.h"
 
@@ -89,33 +86,24 @@ class VoxelPropagation : public Technique {
 
   void prepare(frame::Frame& frame) override {
     light_.emplace(frame, settings_.grid, settings_.surfaces);
-    gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
-    defines.merge(light_->volume().defines());
+    gl::ShaderDefines defines = light_->volume().defines();
     defineEnum(defines, "GATHER", settings_.reconstruction.from);
     defineEnum(defines, "INTERPOLATION", settings_.reconstruction.weights);
-    reconstruct_ = &frame.context().programs().compute(
-        "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl", defines);
-    picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    frame.passes().setBytesHeld(kVoxelReconstructPass, picture_->bytes());
+    picture_.emplace(frame,
+                     "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
+                     defines, settings_.surfaces, kVoxelReconstructPass);
   }
 
   void render(frame::Frame& frame) override {
-    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     light_->update(frame);
-    const auto scope = frame.passes().open(kVoxelReconstructPass);
-    configureSurfaceLight(*reconstruct_, frame, settings_.surfaces);
-    light_->volume().configure(*reconstruct_);
-    reconstruct_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
-    reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
-    ids.bindTexture(kReconstructIdsUnit);
-    light_->arrived().bindTexture(kReconstructArrivedUnit);
-    light_->lightCells().bindTexture(kLightCellsUnit);
-    picture_->bindImage(kReconstructOutImage, gl::Access::Write);
-    reconstruct_->dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    picture_->render(frame, [&](const gl::Program& program) {
+      light_->volume().configure(program);
+      light_->arrived().bindTexture(kReconstructArrivedUnit);
+      light_->lightCells().bindTexture(kLightCellsUnit);
+    });
   }
 
-  const gl::Texture& product() const override { return *picture_; }
+  const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto meanFlux = [&] {
@@ -144,8 +132,7 @@ class VoxelPropagation : public Technique {
  private:
   Settings settings_;
   std::optional<LightGrid> light_;
-  const gl::Program* reconstruct_ = nullptr;
-  std::optional<gl::Texture> picture_;
+  std::optional<IndirectPicture> picture_;
 };
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
