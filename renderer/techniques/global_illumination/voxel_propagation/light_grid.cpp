@@ -52,6 +52,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
       lighting_(lighting),
       bounds_(frame.scene().bounds()),
       counts_(sizeof(InjectCounts), nullptr),
+      layerSums_(4, nullptr),
       changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
   gl::Context& context = frame.context();
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
@@ -71,6 +72,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
   source_.emplace(format, glm::ivec2(size), 1, 3 * size.z);
   fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z);
+  layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
   lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
   const bool summed = settings.sources == LightSources::Once;
   arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
@@ -100,6 +102,7 @@ void LightGrid::compile(frame::Frame& frame) {
   gl::ShaderDefines seeding = defines;
   seeding["FIELD_TOO"] = "1";
   seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", seeding);
+  flux_ = &programs.compute(kLightGridFolder + "light_flux.comp.glsl");
   cells_ = &programs.compute(kLightGridFolder + "light_cells.comp.glsl", defines);
   for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
     defines["TRANSPORT_" + std::string(name)] = std::to_string(std::string(name) == "MOMENTS" ? 0
@@ -266,14 +269,18 @@ Image LightGrid::fieldLayer(int channel, int z) const {
 }
 
 glm::dvec3 LightGrid::flux() const {
+  const int depth = volume_->grid().resolution.z;
+  fields_->bindTexture(kPropagateFieldUnit);
+  layerSums_.bindStorage(kLightFluxBuffer);
+  flux_->set("firstLayer", 3 * from_ * depth);
+  flux_->use();
+  glDispatchCompute(static_cast<GLuint>(3 * depth), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const std::vector<float> sums = layerSums_.read<float>();
   const double h = volume_->grid().voxelSize;
   glm::dvec3 out(0.0);
-  for (int channel = 0; channel < 3; ++channel)
-    for (int z = 0; z < volume_->grid().resolution.z; ++z) {
-      const Image layer = fieldLayer(channel, z);
-      for (size_t i = 0; i < layer.pixels(); ++i) out[channel] += layer.data[4 * i];
-    }
-  return h * h * out;
+  for (int layer = 0; layer < 3 * depth; ++layer) out[layer / depth] += h * h * double(sums[size_t(layer)]);
+  return out;
 }
 
 uint32_t LightGrid::homeless() const {

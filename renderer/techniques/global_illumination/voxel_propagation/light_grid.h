@@ -67,14 +67,14 @@ class LightGrid {
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   const gl::Program *inject_ = nullptr, *cells_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr,
-                    *arrive_ = nullptr;
+                    *arrive_ = nullptr, *flux_ = nullptr;
   std::optional<gl::Texture> samples_, sums_, source_, arrived_, lightCells_;
   /// Two, of which a step reads one and writes the other. Both are one texture, so that nothing is bound
   /// between steps: drivers take longer for that than small grids do for a step.
   std::optional<gl::Texture> fields_;
   std::optional<gl::VolumeTexture> shares_;
   std::vector<gl::Texture> sumsOfAxis_;
-  gl::Buffer counts_, changes_;
+  gl::Buffer counts_, layerSums_, changes_;
   uint32_t sampleCount_ = 0;
   int64_t frames_ = 0;
   int step_ = 0;  ///< of this frame

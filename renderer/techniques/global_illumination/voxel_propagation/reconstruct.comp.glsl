@@ -26,6 +26,13 @@ uint cellAt(ivec3 voxel) { return isInGrid(voxel) ? texelFetch(lightCells, voxel
 
 vec4 lightOf(ivec3 voxel, int face) { return texelFetch(arrived, voxel + ivec3(0, 0, face * gridSizeZ), 0); }
 
+const float kLeastShare = 1e-5;  // less is rounding of the position
+
+float cornerShare(vec3 part, ivec3 upper) {
+  const vec3 axes = mix(1.0 - part, part, vec3(upper));
+  return axes.x * axes.y * axes.z;
+}
+
 #if INTERPOLATION == INTERPOLATION_VISIBLE
 // Whether no surface is between a point and the middle of the empty voxel beyond a face.
 bool seesVoxel(SurfacePoint point, ivec3 voxel) {
@@ -54,25 +61,6 @@ bool isSurelySeen(Surroundings near, ivec3 voxel, int face) {
   if (away[axis] != 0 || !near.open || holdsEdge(cellAt(voxel))) return false;
   return away[(axis + 1) % 3] == 0 || away[(axis + 2) % 3] == 0 || (near.openU && near.openV);
 }
-
-// The nearest of all voxels around that a point sees.
-vec4 nearestSeen(SurfacePoint point, vec3 at, int face) {
-  const ivec3 own = ivec3(floor(at + 0.5)), forward = faceStep(face);
-  float nearest = 1e30;
-  vec4 found = vec4(0.0);
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x) {
-        const ivec3 voxel = own + ivec3(x, y, z);
-        const vec3 away = vec3(voxel) - at;
-        if (dot(away, away) >= nearest || !isInGrid(voxel)) continue;
-        const vec4 light = lightOf(voxel, face);
-        if (light.a == 0.0 || !seesVoxel(point, voxel + forward)) continue;
-        nearest = dot(away, away);
-        found = vec4(light.rgb, 1.0);
-      }
-  return found;
-}
 #endif
 
 // Mean light at one face of the voxels around; alpha: 0 where there is none.
@@ -87,27 +75,55 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
   const Surroundings near = surroundingsOf(low, part, face);
 #endif
   vec4 sum = vec4(0.0);
+  uint doubtful = 0u;
   for (int corner = 0; corner < 8; ++corner) {
     const ivec3 upper = ivec3(corner & 1, corner >> 1 & 1, corner >> 2), voxel = low + upper;
-    const vec3 axes = mix(1.0 - part, part, vec3(upper));
-    float share = axes.x * axes.y * axes.z;
-    if (!(share > 1e-5) || !isInGrid(voxel)) continue;  // no more than rounding of the position
+    float share = cornerShare(part, upper);
+    if (!(share > kLeastShare) || !isInGrid(voxel)) continue;
     vec4 light = lights[corner];
 #if GATHER == GATHER_FACES && INTERPOLATION != INTERPOLATION_ALL
     share *= light.a;
 #elif INTERPOLATION != INTERPOLATION_ALL
     if (!holdsSurface(cellAt(voxel))) continue;
 #endif
+#if INTERPOLATION == INTERPOLATION_VISIBLE
+    if (light.a > 0.0 && !isSurelySeen(near, voxel, face)) {
+      doubtful |= 1u << corner;
+      continue;
+    }
+#endif
 #if GATHER == GATHER_REFLECTED
     light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
-#endif
-#if INTERPOLATION == INTERPOLATION_VISIBLE
-    if (light.a > 0.0 && !isSurelySeen(near, voxel, face) && !seesVoxel(point, voxel + faceStep(face))) continue;
 #endif
     sum += share * vec4(light.rgb, 1.0);
   }
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-  if (!(sum.a > 1e-4)) sum = nearestSeen(point, at, face);
+  // The doubtful ones that the point sees; if there is none at all, the nearest seen of those farther around. One place in the shader
+  // traces rays, as each takes many registers.
+  const ivec3 own = ivec3(floor(at + 0.5));
+  float nearest = 1e30;
+  for (int i = doubtful != 0u ? 0 : 8; i < 8 + 27; ++i) {
+    const bool around = i >= 8;
+    if (around ? sum.a > 1e-4 && nearest > 1e29 : (doubtful >> i & 1u) == 0u) {
+      if (around) break;
+      continue;
+    }
+    const int j = i - 8;
+    const ivec3 upper = ivec3(i & 1, i >> 1 & 1, i >> 2), voxel = around ? own + ivec3(j % 3, j / 3 % 3, j / 9) - 1 : low + upper;
+    const vec3 away = vec3(voxel) - at;
+    if (around && (dot(away, away) >= nearest || !isInGrid(voxel))) continue;
+    vec4 light = lightOf(voxel, face);
+    if (light.a == 0.0 || !seesVoxel(point, voxel + faceStep(face))) continue;
+#if GATHER == GATHER_REFLECTED
+    light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
+#endif
+    if (around) {
+      nearest = dot(away, away);
+      sum = vec4(light.rgb, 1.0);
+    } else {
+      sum += cornerShare(part, upper) * vec4(light.rgb, 1.0);
+    }
+  }
 #endif
   return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
@@ -119,10 +135,13 @@ vec3 indirectLight(SurfacePoint point, vec3 albedo) {
 #if GATHER == GATHER_REFLECTED
   albedo = vec3(1.0);
 #endif
-  for (int face = 0; face < 6; ++face) {
-    const int axis = face >> 1;
-    const float weight = faceWeight((face & 1) == 0 ? point.flatNormal[axis] : -point.flatNormal[axis]);
-    if (weight == 0.0) continue;
+  uint faces = 0u;
+  for (int face = 0; face < 6; ++face)
+    if (faceWeight(dot(point.flatNormal, vec3(faceStep(face)))) != 0.0) faces |= 1u << face;
+  // Not unrolled, so that rays stay in one place.
+  for (; faces != 0u; faces &= faces - 1u) {
+    const int face = findLSB(faces);
+    const float weight = faceWeight(dot(point.flatNormal, vec3(faceStep(face))));
     const vec4 light = lightAtFace(point, at, face);
     result += weight * light.rgb;
     known += weight * light.a;

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "renderer/techniques/frames_before.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/indirect_picture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
@@ -68,12 +69,14 @@ struct ReconstructionSettings {
 struct VoxelPropagationSettings {
   LightGridSettings grid;
   ReconstructionSettings reconstruction;
+  FramesBefore before;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<VoxelPropagationSettings>& table() {
     using S = VoxelPropagationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::grid),
         {&S::reconstruction, "reconstruction", "How pixels get light from voxels"},
+        {&S::before, "before", "Frames before the first picture"},
         included(&S::surfaces)};
     return kTable;
   }
@@ -92,6 +95,7 @@ class VoxelPropagation : public Technique {
     picture_.emplace(frame,
                      "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
                      defines, settings_.surfaces, kVoxelReconstructPass);
+    settings_.before.renderAll(frame, [this](frame::Frame& before) { light_->update(before); });
   }
 
   void render(frame::Frame& frame) override {
