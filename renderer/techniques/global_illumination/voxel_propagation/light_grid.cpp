@@ -21,6 +21,9 @@ namespace {
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
+/// Where a dispatch takes as long as a step of a grid. Software renderers are slowed down by repeated work.
+constexpr int kStepsTogetherOnGpu = 2;
+
 constexpr const char* kArrivePass = "global_illumination/arrive";
 
 const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
@@ -58,6 +61,10 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
+  if (settings.sources == LightSources::Steady && settings.stopBelow == 0.0)
+    together_ = settings.stepsTogether > 0 ? settings.stepsTogether
+                : context.device().software ? 1
+                                            : kStepsTogetherOnGpu;
   compile(frame);
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
@@ -120,8 +127,12 @@ void LightGrid::compile(frame::Frame& frame) {
   defineEnum(defines, "ALBEDO", settings_.albedo);
   if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
   if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
+  defines["STEPS_TOGETHER"] = "1";
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  for (const gl::Program* program : {propagate_, arrive_}) {
+  if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
+  defines["STEPS_TOGETHER"] = std::to_string(together_);
+  propagateTogether_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
+  for (const gl::Program* program : {propagate_, propagateTogether_, arrive_}) {
     if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
       const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
       setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
@@ -154,10 +165,14 @@ void LightGrid::update(frame::Frame& frame) {
   const auto scope = frame.passes().open(kPropagatePass);
   const bool lasting = settings_.sources == LightSources::Steady;
   restartSteps(lasting);
-  for (int step = 0; step < settings_.iterations; ++step) {
-    if (!lasting) arrive(step == 0);
-    propagate();
-  }
+  const int together = together_;
+  if (together > 1)
+    for (int left = settings_.iterations; left > 0; left -= together) propagateTogether(std::min(left, together));
+  else
+    for (int step = 0; step < settings_.iterations; ++step) {
+      if (!lasting) arrive(step == 0);
+      propagate();
+    }
   if (lasting || settings_.iterations == 0) arrive(true);
 }
 
@@ -229,11 +244,11 @@ void LightGrid::restartSteps(bool lasting) {
     changes_.clearUint(0);
     propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
   }
-  for (const gl::Program* program : {arrive_, propagate_}) {
+  for (const gl::Program* program : {arrive_, propagate_, propagateTogether_}) {
     volume_->configure(*program);
     program->set("from", from_);
+    program->set("lasting", lasting ? 1 : 0);
   }
-  propagate_->set("lasting", lasting ? 1 : 0);
   if (shares_) shares_->bindTexture(kShareTableUnit);
   lightCells_->bindTexture(kLightCellsUnit);
   fields_->bindTexture(kPropagateFieldUnit);
@@ -254,6 +269,18 @@ void LightGrid::propagate() {
   dispatchVoxels({size.x, size.y, 3 * size.z});
   from_ = 1 - from_;
   ++step_;
+}
+
+void LightGrid::propagateTogether(int steps) {
+  propagateTogether_->set("from", from_);
+  propagateTogether_->set("steps", steps);
+  propagateTogether_->use();
+  const glm::ivec3 groups = (volume_->grid().resolution + (kPropagateGroup - 1)) / kPropagateGroup;
+  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
+                    static_cast<GLuint>(3 * groups.z));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  from_ = 1 - from_;
+  step_ += steps;
 }
 
 void LightGrid::arrive(bool first) {

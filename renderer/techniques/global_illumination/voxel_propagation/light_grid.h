@@ -41,6 +41,10 @@ class LightGrid {
   /// that was put in once.
   void start(frame::Frame& frame);
   void propagate();
+  /// Steps of one dispatch at most, with the same result.
+  int stepsTogether() const { return together_; }
+  /// That many steps in one dispatch.
+  void propagateTogether(int steps);
   /// Adds what the field sends to occupied voxels to what has arrived, or replaces it.
   void arrive(bool first);
   /// One layer of the field, flux and vector of each voxel: light on its way. Waits for the GPU.
@@ -67,7 +71,7 @@ class LightGrid {
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   const gl::Program *inject_ = nullptr, *cells_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr,
-                    *arrive_ = nullptr, *flux_ = nullptr;
+                    *propagateTogether_ = nullptr, *arrive_ = nullptr, *flux_ = nullptr;
   std::optional<gl::Texture> samples_, sums_, source_, arrived_, lightCells_;
   /// Two, of which a step reads one and writes the other. Both are one texture, so that nothing is bound
   /// between steps: drivers take longer for that than small grids do for a step.
@@ -77,6 +81,7 @@ class LightGrid {
   gl::Buffer counts_, layerSums_, changes_;
   uint32_t sampleCount_ = 0;
   int64_t frames_ = 0;
+  int together_ = 1;
   int step_ = 0;  ///< of this frame
   int from_ = 0;  ///< the field that holds the light
 };

@@ -75,6 +75,13 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
        "",
        "Steps of a voxel that light travels in a frame",
        "Gaitatzes 2012, Table 2 (11, 12, 64)"},
+      {&S::stepsTogether,
+       "steps_together",
+       {0, 3},
+       "",
+       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in once "
+       "or steps may stop early",
+       "the bench's own"},
       {&S::transport, "transport", "How light goes from a voxel to its neighbours", kTransportSource},
       {&S::sources, "sources", "When light is put in", kChapter},
       {&S::reflection, "reflection", "At occupied voxels", kChapter},

@@ -100,7 +100,7 @@ struct UpdateOn {
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
 struct LightGridSettings {
-  int resolution = 16, iterations = 64;
+  int resolution = 16, iterations = 64, stepsTogether = 0;
   LightTransport transport;
   LightSources sources = LightSources::Steady;
   GridReflection reflection = GridReflection::Diffuse;

@@ -7,7 +7,12 @@
 #include "renderer/techniques/global_illumination/voxel_propagation/transport.glsl"
 #include "renderer/voxels/volume.glsl"
 
-layout(local_size_x = kPropagateGroup, local_size_y = kPropagateGroup, local_size_z = kPropagateGroup) in;
+#if STEPS_TOGETHER > 1
+const int kSide = kPropagateGroup + 2 * STEPS_TOGETHER;  // of a group: its voxels and those around that they depend on
+#else
+const int kSide = kPropagateGroup;
+#endif
+layout(local_size_x = kSide, local_size_y = kSide, local_size_z = kSide) in;
 // Two fields, of which a step reads one and writes the other. Layer: (field * 3 + channel) * depth + z.
 layout(binding = kPropagateFieldUnit) uniform sampler2DArray fields;
 layout(binding = kPropagateOutImage, FIELD_FORMAT) uniform writeonly image2DArray next;
@@ -38,22 +43,8 @@ vec4 reflected(vec4 arriving, vec3 direction, vec3 normal) {
 #endif
 }
 
-void main() {
-  const ivec3 at = ivec3(gl_GlobalInvocationID);  // z: channel and layer
-  if (any(greaterThanEqual(at, ivec3(gridSize().xy, 3 * gridSizeZ)))) return;
-#ifdef STOPS
-  if (step_ > 0 && uintBitsToFloat(changes[step_ - 1]) <= stopBelow) return;
-#endif
-  const int channel = at.z / gridSizeZ, read = (3 * from + channel) * gridSizeZ, write = 3 * (1 - from) * gridSizeZ;
-  const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), last = gridSize() - 1;
-  const uint cell = texelFetch(lightCells, voxel, 0).x;
-  const vec4 own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0), lit = texelFetch(source, at, 0);
-  // From the side of each face.
-  vec4 beside[6];
-  for (int face = 0; face < 6; ++face) {
-    const ivec3 there = clamp(voxel + ivec3(faceDirection(face)), ivec3(0), last);
-    beside[face] = texelFetch(fields, ivec3(there.xy, read + there.z), 0);
-  }
+// A voxel's light after a step. `beside`: lights from the side of each face; `lit`: its source.
+vec4 afterStep(ivec3 voxel, int channel, uint cell, vec4 own, vec4 beside[6], vec4 lit) {
   const bool solid = holdsSurface(cell);
   vec4 moved[6];
   for (int face = 0; face < 6; ++face) {
@@ -81,9 +72,77 @@ void main() {
 #endif
     if (surface.w > 0.0 && moved[face].x > 0.0) sum += albedo * reflected(moved[face], faceDirection(face), surface.xyz);
   }
-  if (!holdsLight(cell)) sum = vec4(0.0);
+  return holdsLight(cell) ? sum : vec4(0.0);
+}
+
+#if STEPS_TOGETHER > 1
+uniform int steps;  // of these, at most STEPS_TOGETHER
+
+// Lights of the group's voxels, rounded as the field's texels are.
+#ifdef FIELD_HALF
+shared uvec2 lights[kSide * kSide * kSide];
+uvec2 keptOf(vec4 light) { return uvec2(packHalf2x16(light.xy), packHalf2x16(light.zw)); }
+vec4 lightKept(uvec2 light) { return vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)); }
+#else
+shared vec4 lights[kSide * kSide * kSide];
+vec4 keptOf(vec4 light) { return light; }
+vec4 lightKept(vec4 light) { return light; }
+#endif
+
+// Each invocation keeps its voxel for all steps; those at a group's sides drop out, as what they depend on is another group's.
+void main() {
+  const int layers = (gridSizeZ + kPropagateGroup - 1) / kPropagateGroup, channel = int(gl_WorkGroupID.z) / layers;
+  const ivec3 local = ivec3(gl_LocalInvocationID);
+  const ivec3 voxel = kPropagateGroup * (ivec3(gl_WorkGroupID) - ivec3(0, 0, channel * layers)) + local - STEPS_TOGETHER;
+  const int first = channel * gridSizeZ, own_ = local.x + kSide * (local.y + kSide * local.z);
+  const bool there = isInGrid(voxel);
+  uint cell = 0u;
+  vec4 own = vec4(0.0), lit = vec4(0.0);
+  if (there) {
+    cell = texelFetch(lightCells, voxel, 0).x;
+    own = texelFetch(fields, ivec3(voxel.xy, 3 * from * gridSizeZ + first + voxel.z), 0);
+    lit = texelFetch(source, ivec3(voxel.xy, first + voxel.z), 0);
+  }
+  lights[own_] = keptOf(own);
+  barrier();
+  for (int s = 1; s <= steps; ++s) {
+    if (all(greaterThanEqual(local, ivec3(s))) && all(lessThan(local, ivec3(kSide - s)))) {
+      vec4 beside[6];
+      for (int face = 0; face < 6; ++face) {
+        const ivec3 towards = ivec3(faceDirection(face));
+        beside[face] = lightKept(lights[own_ + towards.x + kSide * (towards.y + kSide * towards.z)]);
+      }
+      own = afterStep(voxel, channel, cell, own, beside, lit);
+    }
+    if (s == steps) break;
+    barrier();
+    lights[own_] = keptOf(own);
+    own = lightKept(lights[own_]);
+    barrier();
+  }
+  const bool inner = all(greaterThanEqual(local, ivec3(STEPS_TOGETHER))) && all(lessThan(local, ivec3(kSide - STEPS_TOGETHER)));
+  if (there && inner) imageStore(next, ivec3(voxel.xy, 3 * (1 - from) * gridSizeZ + first + voxel.z), own);
+}
+#else
+void main() {
+  const ivec3 at = ivec3(gl_GlobalInvocationID);  // z: channel and layer
+  if (any(greaterThanEqual(at, ivec3(gridSize().xy, 3 * gridSizeZ)))) return;
+#ifdef STOPS
+  if (step_ > 0 && uintBitsToFloat(changes[step_ - 1]) <= stopBelow) return;
+#endif
+  const int channel = at.z / gridSizeZ, read = (3 * from + channel) * gridSizeZ, write = 3 * (1 - from) * gridSizeZ;
+  const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), last = gridSize() - 1;
+  const uint cell = texelFetch(lightCells, voxel, 0).x;
+  const vec4 own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0), lit = texelFetch(source, at, 0);
+  vec4 beside[6];
+  for (int face = 0; face < 6; ++face) {
+    const ivec3 there = clamp(voxel + ivec3(faceDirection(face)), ivec3(0), last);
+    beside[face] = texelFetch(fields, ivec3(there.xy, read + there.z), 0);
+  }
+  const vec4 sum = afterStep(voxel, channel, cell, own, beside, lit);
   imageStore(next, ivec3(at.xy, write + at.z), sum);
 #ifdef STOPS
   if (holdsLight(cell)) atomicMax(changes[step_], floatBitsToUint(abs(sum.x - own.x)));
 #endif
 }
+#endif

@@ -343,6 +343,36 @@ TEST_F(VoxelPropagationLight, LobesAboutAxesLoseTheLightOfAFloorThatMomentsKeep)
   EXPECT_NEAR(moments, known, known / 3.0);
 }
 
+/// Several steps of one dispatch are those of as many, 64 or 65 of them, in grids of whole groups or not. What is kept
+/// between steps is rounded as texels are: to the same bits on one machine, or where a texel's half rounds another way
+/// than the shader's, by 2^-11 of it at most in each step.
+TEST_F(VoxelPropagationLight, StepsTogetherAreStepsOneByOne) {
+  const scene::Scene rooms[] = {makeScene("global_illumination/room"),
+                                makeScene("global_illumination/divided_room", {{"transmittance", 0.5}}),
+                                makeScene("global_illumination/stand_in", {{"turn_deg", 30.0}})};
+  for (const scene::Scene& scene : rooms)
+    for (const char* format : {"16f", "32f"})
+      for (const int64_t iterations : {6, 13}) {
+        const auto of = [&](int64_t together) {
+          return indirect(scene, {{"steps_together", together},
+                                  {"iterations", iterations},
+                                  {"resolution", int64_t{14}},
+                                  {"format", std::string(format)}})
+              .product;
+        };
+        const Image single = of(1);
+        double largest = 0.0;
+        for (const float value : single.data) largest = std::max(largest, double(value));
+        for (const int64_t together : {2, 3}) {
+          const Image found = of(together);
+          for (size_t i = 0; i < found.data.size(); ++i)
+            ASSERT_NEAR(found.data[i], single.data[i],
+                        (std::string(format) == "16f" ? double(iterations) / 2048.0 : 1e-6) * largest)
+                << format << ", " << together << ", " << iterations;
+        }
+      }
+}
+
 /// GI-12. Where nothing moves, what is spread over frames ends as what is made at once. The field tends to
 /// its limit from below by the factor of a bounce, .7, in each crossing of the room, some 16 steps: after 512
 /// steps all have less than .7^32 = 1e-5 of it to go; half floats, each step's rounding of 2^-12, stop there
