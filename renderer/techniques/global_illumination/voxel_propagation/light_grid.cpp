@@ -127,9 +127,9 @@ void LightGrid::compile(frame::Frame& frame) {
   defineEnum(defines, "ALBEDO", settings_.albedo);
   if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
   if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
+  if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
   defines["STEPS_TOGETHER"] = "1";
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
   defines["STEPS_TOGETHER"] = std::to_string(together_);
   propagateTogether_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
   for (const gl::Program* program : {propagate_, propagateTogether_, arrive_}) {

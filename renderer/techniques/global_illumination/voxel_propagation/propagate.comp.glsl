@@ -43,6 +43,21 @@ vec4 reflected(vec4 arriving, vec3 direction, vec3 normal) {
 #endif
 }
 
+// As the field's texels keep it. Rounded to the nearest half here: where a driver's texels are cut off instead, light would be lost
+// at each step.
+#ifdef FIELD_HALF
+#define LightKept uvec2
+uvec2 keptOf(vec4 light) {
+  light = clamp(light, -65504.0, 65504.0);  // rules that create energy would leave the range of halves
+  return uvec2(packHalf2x16(light.xy), packHalf2x16(light.zw));
+}
+vec4 lightKept(uvec2 light) { return vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)); }
+#else
+#define LightKept vec4
+vec4 keptOf(vec4 light) { return light; }
+vec4 lightKept(vec4 light) { return light; }
+#endif
+
 // A voxel's light after a step. `beside`: lights from the side of each face; `lit`: its source.
 vec4 afterStep(ivec3 voxel, int channel, uint cell, vec4 own, vec4 beside[6], vec4 lit) {
   const bool solid = holdsSurface(cell);
@@ -72,22 +87,14 @@ vec4 afterStep(ivec3 voxel, int channel, uint cell, vec4 own, vec4 beside[6], ve
 #endif
     if (surface.w > 0.0 && moved[face].x > 0.0) sum += albedo * reflected(moved[face], faceDirection(face), surface.xyz);
   }
-  return holdsLight(cell) ? sum : vec4(0.0);
+  return holdsLight(cell) ? lightKept(keptOf(sum)) : vec4(0.0);
 }
 
 #if STEPS_TOGETHER > 1
 uniform int steps;  // of these, at most STEPS_TOGETHER
 
-// Lights of the group's voxels, rounded as the field's texels are.
-#ifdef FIELD_HALF
-shared uvec2 lights[kSide * kSide * kSide];
-uvec2 keptOf(vec4 light) { return uvec2(packHalf2x16(light.xy), packHalf2x16(light.zw)); }
-vec4 lightKept(uvec2 light) { return vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)); }
-#else
-shared vec4 lights[kSide * kSide * kSide];
-vec4 keptOf(vec4 light) { return light; }
-vec4 lightKept(vec4 light) { return light; }
-#endif
+// Lights of the group's voxels.
+shared LightKept lights[kSide * kSide * kSide];
 
 // Each invocation keeps its voxel for all steps; those at a group's sides drop out, as what they depend on is another group's.
 void main() {
@@ -117,7 +124,6 @@ void main() {
     if (s == steps) break;
     barrier();
     lights[own_] = keptOf(own);
-    own = lightKept(lights[own_]);
     barrier();
   }
   const bool inner = all(greaterThanEqual(local, ivec3(STEPS_TOGETHER))) && all(lessThan(local, ivec3(kSide - STEPS_TOGETHER)));
