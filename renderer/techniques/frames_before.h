@@ -15,8 +15,8 @@ struct FramesBefore {
   double lightTurnDeg = 0.0;
   static const SettingsTable<FramesBefore>& table();
 
-  /// Calls `render` for each of them, begun, with the camera, parts and first light of its time. At their end the
-  /// frame has its own time again and is not begun.
+  /// Calls `render` for each of them, begun, with the camera, parts and first light of its time. At their end
+  /// the frame has its own time again and is not begun.
   void renderAll(frame::Frame& frame, const std::function<void(frame::Frame&)>& render) const;
 };
 

@@ -10,8 +10,8 @@
 
 namespace limen::techniques {
 
-/// The picture of a technique whose shader includes indirect_picture.glsl: what each pixel sees, lit by the lamp,
-/// by itself and by what the shader's indirectLight() gathers, as the settings choose.
+/// The picture of a technique whose shader includes indirect_picture.glsl: what each pixel sees, lit by the
+/// lamp, by itself and by what the shader's indirectLight() gathers, as the settings choose.
 class IndirectPicture {
  public:
   /// `pass`: under which it is timed; it has to outlive this.

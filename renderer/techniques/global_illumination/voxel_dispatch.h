@@ -5,8 +5,8 @@
 
 namespace limen::techniques {
 
-/// Runs the program in use over voxels, in groups of kPropagateGroup a side; what it writes to images can then
-/// be read.
+/// Runs the program in use over voxels, in groups of kPropagateGroup a side; what it writes to images can
+/// then be read.
 void dispatchVoxels(glm::ivec3 size);
 
 }  // namespace limen::techniques

@@ -86,7 +86,8 @@ class LightPropagationVolumes : public Technique {
     const std::string folder = "renderer/techniques/global_illumination/";
     gl::Context& context = frame.context();
     gl::ProgramCache& programs = context.programs();
-    voxels::VolumeAttributes attributes{false, settings_.blockers != VolumeBlockers::None, gl::Format::RGBA16F};
+    voxels::VolumeAttributes attributes{false, settings_.blockers != VolumeBlockers::None,
+                                        gl::Format::RGBA16F};
     volume_.emplace(context, voxels::tightGrid(frame.scene().bounds(), settings_.resolution),
                     frame.gpuScene().anchor(), attributes);
     if (attributes.normal) voxelizer_.emplace(frame, voxels::Coverage::Thin, *volume_);

@@ -62,7 +62,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
   if (settings.sources == LightSources::Steady && settings.stopBelow == 0.0)
-    together_ = settings.stepsTogether > 0 ? settings.stepsTogether
+    together_ = settings.stepsTogether > 0  ? settings.stepsTogether
                 : context.device().software ? 1
                                             : kStepsTogetherOnGpu;
   compile(frame);
@@ -167,7 +167,8 @@ void LightGrid::update(frame::Frame& frame) {
   restartSteps(lasting);
   const int together = together_;
   if (together > 1)
-    for (int left = settings_.iterations; left > 0; left -= together) propagateTogether(std::min(left, together));
+    for (int left = settings_.iterations; left > 0; left -= together)
+      propagateTogether(std::min(left, together));
   else
     for (int step = 0; step < settings_.iterations; ++step) {
       if (!lasting) arrive(step == 0);

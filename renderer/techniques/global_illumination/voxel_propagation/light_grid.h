@@ -60,8 +60,8 @@ class LightGrid {
   bool place(const frame::Frame& frame);
   void configureBounds(const gl::Program& program) const;
   void voxelize(frame::Frame& frame);
-  /// Of surfaces that face `axis`, if they are put in apart; negative: all. `restart`: the field becomes what is
-  /// put in.
+  /// Of surfaces that face `axis`, if they are put in apart; negative: all. `restart`: the field becomes what
+  /// is put in.
   void inject(frame::Frame& frame, int axis, bool restart);
   void restartSteps(bool lasting);
 

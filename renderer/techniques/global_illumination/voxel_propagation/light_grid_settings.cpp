@@ -79,7 +79,8 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
        "steps_together",
        {0, 3},
        "",
-       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in once "
+       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in "
+       "once "
        "or steps may stop early",
        "the bench's own"},
       {&S::transport, "transport", "How light goes from a voxel to its neighbours", kTransportSource},

@@ -92,8 +92,7 @@ class VoxelPropagation : public Technique {
     gl::ShaderDefines defines = light_->volume().defines();
     defineEnum(defines, "GATHER", settings_.reconstruction.from);
     defineEnum(defines, "INTERPOLATION", settings_.reconstruction.weights);
-    picture_.emplace(frame,
-                     "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
+    picture_.emplace(frame, "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
                      defines, settings_.surfaces, kVoxelReconstructPass);
     settings_.before.renderAll(frame, [this](frame::Frame& before) { light_->update(before); });
   }

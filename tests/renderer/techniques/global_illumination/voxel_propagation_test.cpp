@@ -6,77 +6,13 @@
 
 #include "renderer/references/counter_random.h"
 #include "renderer/references/triangle_tree.h"
-#include "renderer/scene/shapes.h"
-#include "renderer/scene/stage.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
-#include "tests/renderer/techniques/technique_fixture.h"
+#include "tests/renderer/techniques/global_illumination/indirect_light_fixture.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPropagation = "global_illumination/voxel_propagation";
-
-class VoxelPropagationLight : public TechniqueTest {
- protected:
-  static Rendered indirect(const scene::Scene& scene, Given given, bool counting = false,
-                           const char* technique = kPropagation) {
-    given["light"] = std::string("indirect");
-    if (std::string(technique) == kPropagation) given.emplace("resolution", int64_t{16});
-    return render(scene, technique, given, {32, 24}, counting);
-  }
-
-  static Image truth(const scene::Scene& scene) {
-    return render(scene, "global_illumination/path_reference",
-                  {{"paths", int64_t{64}}, {"bounces", int64_t{8}}, {"light", std::string("indirect")}},
-                  {32, 24})
-        .product;
-  }
-
-  /// Root mean square over rows before `end`.
-  static double error(const Image& a, const Image& b, int end = 24) {
-    double sum = 0.0;
-    for (int y = 0; y < end; ++y)
-      for (int x = 0; x < a.width; ++x)
-        for (int c = 0; c < 3; ++c) sum += std::pow(double(a.at(x, y, c)) - b.at(x, y, c), 2.0);
-    return std::sqrt(sum / (3.0 * a.width * end));
-  }
-
-  /// Of the channels' means, over columns from `first` to before `end`.
-  static double meanOf(const Image& picture, int first, int end) {
-    double sum = 0.0;
-    for (int y = 0; y < picture.height; ++y)
-      for (int x = first; x < end; ++x)
-        for (int c = 0; c < 3; ++c) sum += picture.at(x, y, c) / 3.0;
-    return sum / (double(picture.height) * (end - first));
-  }
-
-  static scene::Scene probeAboveFloor() {
-    scene::Scene scene;
-    scene::addPart(scene, "floor", scene::card({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}), glm::vec3(0.8F));
-    scene::addPart(scene, "probe", scene::card({0.0, 0.6, 0.0}, {0.05, 0.0, 0.0}, {0.0, 0.0, 0.05}), glm::vec3(0.8F));
-    scene.lights = {scene::lightTowards({0.4, 1.5, 0.0}, {0.0, 0.0, 0.0}, glm::dvec2(0.1))};
-    scene::setStillCamera(scene, {{0.0, 0.1, 0.0}, {0.0, 0.6, 0.0}, {1.0, 0.0, 0.0}, 8.0});
-    return scene;
-  }
-
-  /// Products of `frames` frames, one after another.
-  static std::vector<Image> pictures(const scene::Scene& scene, Given given, int frames) {
-    given["light"] = std::string("indirect");
-    const TechniqueInfo& info = TechniqueRegistry::instance().get(kPropagation);
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, {32, 24});
-    const auto made = info.make(ParameterValues(info.parameters, given));
-    made->prepare(frame);
-    std::vector<Image> out;
-    for (int i = 0; i < frames; ++i) {
-      frame.begin();
-      made->render(frame);
-      out.push_back(made->product().read());
-      frame.end();
-    }
-    return out;
-  }
-};
+class VoxelPropagationLight : public IndirectLightTest {};
 
 /// The flux of a surface of radiance e and area A is pi e A. Areas of samples sum to the surface's, which
 /// leaves the rounding of fixed-point sums, half a unit of 2^-16 of more than one unit for each sample, and
@@ -259,7 +195,7 @@ TEST_F(VoxelPropagationLight, IsNearerToPathsThanItsRivals) {
     const double found = error(indirect(scene, {}).product, reference);
     const auto volumes = [&](const char* blockers) {
       return error(indirect(scene, {{"resolution", int64_t{16}}, {"blockers", std::string(blockers)}}, false,
-                            "global_illumination/light_propagation_volumes")
+                            kPropagationVolumes)
                        .product,
                    reference);
     };
@@ -270,10 +206,10 @@ TEST_F(VoxelPropagationLight, IsNearerToPathsThanItsRivals) {
   }
 }
 
-/// Where a wall that is turned against the grid meets another, the voxel beyond a face may be on the other wall's
-/// far side, where there is no light. A strip of one voxel, 2 of 64 columns, beside the left edge of the back wall
-/// has the reference's colour as the rest of that wall has: within a quarter, twice the error of either's mean over
-/// 64 paths in 14 pixels (.1 each) and the grid's own (.05).
+/// Where a wall that is turned against the grid meets another, the voxel beyond a face may be on the other
+/// wall's far side, where there is no light. A strip of one voxel, 2 of 64 columns, beside the left edge of
+/// the back wall has the reference's colour as the rest of that wall has: within a quarter, twice the error
+/// of either's mean over 64 paths in 14 pixels (.1 each) and the grid's own (.05).
 TEST_F(VoxelPropagationLight, EdgesOfTurnedWallsAreNotLitFromTheirFarSides) {
   const scene::Scene scene = makeScene("global_illumination/stand_in", {{"turn_deg", 45.0}});
   const auto colours = [&](const char* technique, Given given) {
@@ -285,66 +221,15 @@ TEST_F(VoxelPropagationLight, EdgesOfTurnedWallsAreNotLitFromTheirFarSides) {
         for (int c = 0; c < 3; ++c) mean[c] += picture.at(x, y, c) / 14.0;
     return mean;
   };
-  const glm::dvec3 reference = colours("global_illumination/path_traced", {{"paths", int64_t{256}}, {"bounces", int64_t{8}}});
+  const glm::dvec3 reference =
+      colours("global_illumination/path_traced", {{"paths", int64_t{256}}, {"bounces", int64_t{8}}});
   const glm::dvec3 found = colours(kPropagation, {{"resolution", int64_t{16}}});
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], reference[c], 0.25 * reference[c]) << "channel " << c;
 }
 
-/// BL-04. A rival must be worth comparing with: where the lamp lights, light propagation volumes are nearer
-/// to all light than none is, and they do not send more than it, though they know one bounce only: what they
-/// count too often (1.9 times where light comes from all sides) stays below what further bounces add.
-TEST_F(VoxelPropagationLight, PropagationVolumesNeitherMissNorInventTheLamp) {
-  for (const char* name : {"cornell_box", "global_illumination/room"}) {
-    const scene::Scene scene = makeScene(name);
-    const Image reference = truth(scene), nothing(32, 24, 4);
-    for (const int64_t resolution : {16, 32}) {
-      const Image found = indirect(scene, {{"resolution", resolution}}, false,
-                                   "global_illumination/light_propagation_volumes")
-                              .product;
-      EXPECT_LT(error(found, reference), 0.75 * error(nothing, reference)) << name << ", " << resolution;
-      EXPECT_LT(meanOf(found, 0, 32), meanOf(reference, 0, 32)) << name << ", " << resolution;
-    }
-  }
-}
-
-/// BL-04. A floor in the open and a small probe above it: nothing is between. Blocked is what goes against the front
-/// of a surface, so that the floor's own light must leave the floor's voxels whole. Blocking both ways takes most
-/// of it.
-TEST_F(VoxelPropagationLight, BlockersLetTheLightOfTheirOwnVoxelsLeave) {
-  const scene::Scene scene = probeAboveFloor();
-  const auto volumes = [&](const char* blockers) {
-    return meanOf(indirect(scene, {{"resolution", int64_t{20}}, {"blockers", std::string(blockers)}}, false,
-                           "global_illumination/light_propagation_volumes")
-                      .product,
-                  0, 32);
-  };
-  const double none = volumes("none");
-  EXPECT_GT(none, 0.01);
-  // What meets the probe alone, 1/400 of the floor's size, is blocked behind it.
-  EXPECT_NEAR(volumes("fronts"), none, 0.01 * none);
-  EXPECT_LT(volumes("sides"), 0.1 * none);
-}
-
-/// BL-04. The same floor's flux is known: its radiance is .8 * .8 times the cosine to the lamp, and what of it
-/// passes the probe's plane is the reference's irradiance there. Lobes about six axes scatter light at each of the
-/// six steps that it takes up there, half of it back to the floor, where it is lost: propagation volumes keep less
-/// than half of it, blockers or none, while moments, which go on as they are, keep it within a third.
-TEST_F(VoxelPropagationLight, LobesAboutAxesLoseTheLightOfAFloorThatMomentsKeep) {
-  const scene::Scene scene = probeAboveFloor();
-  const double known = meanOf(truth(scene), 0, 32);
-  EXPECT_LT(meanOf(indirect(scene, {{"resolution", int64_t{20}}}, false,
-                            "global_illumination/light_propagation_volumes")
-                       .product,
-                   0, 32),
-            0.5 * known);
-  // The probe is smaller than a voxel: thin voxels would miss it.
-  const double moments = meanOf(
-      indirect(scene, {{"coverage", std::string("conservative")}, {"resolution", int64_t{20}}}).product, 0, 32);
-  EXPECT_NEAR(moments, known, known / 3.0);
-}
-
-/// Several steps of one dispatch are those of as many, in grids of whole groups or not: to the same bits but for what
-/// a compiler makes of the same sums, which is a rounding of the field, 2^-12, where it falls, or 2^-24 of floats.
+/// Several steps of one dispatch are those of as many, in grids of whole groups or not: to the same bits but
+/// for what a compiler makes of the same sums, which is a rounding of the field, 2^-12, where it falls, or
+/// 2^-24 of floats.
 TEST_F(VoxelPropagationLight, StepsTogetherAreStepsOneByOne) {
   const scene::Scene rooms[] = {makeScene("global_illumination/room"),
                                 makeScene("global_illumination/divided_room", {{"transmittance", 0.5}}),
