@@ -61,8 +61,8 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
-  if (settings.sources == LightSources::Steady && settings.stopBelow == 0.0)
-    together_ = settings.stepsTogether > 0  ? settings.stepsTogether
+  if (settings.steps.sources == LightSources::Steady && settings.steps.stopBelow == 0.0)
+    together_ = settings.steps.together > 0 ? settings.steps.together
                 : context.device().software ? 1
                                             : kStepsTogetherOnGpu;
   compile(frame);
@@ -81,7 +81,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z);
   layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
   lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
-  const bool summed = settings.sources == LightSources::Once;
+  const bool summed = settings.steps.sources == LightSources::Once;
   arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
   arrived_->clear(glm::vec4(0.0F));
   if (std::holds_alternative<MomentTransport>(settings.transport)) {
@@ -117,7 +117,7 @@ void LightGrid::compile(frame::Frame& frame) {
                                                                : std::string(name) == "CONES" ? 2
                                                                                               : 3);
   defines["TRANSPORT"] = std::to_string(settings_.transport.index());
-  const bool summed = settings_.sources == LightSources::Once;
+  const bool summed = settings_.steps.sources == LightSources::Once;
   gl::ShaderDefines arriving = defines;
   arriving["ARRIVED_FORMAT"] = summed ? "rgba32f" : defines["FIELD_FORMAT"];
   arriving["ARRIVED_ACCESS"] = summed ? "" : "writeonly";
@@ -125,7 +125,7 @@ void LightGrid::compile(frame::Frame& frame) {
   arrive_ = &programs.compute(kLightGridFolder + "arrive.comp.glsl", arriving);
   defineEnum(defines, "REFLECTION", settings_.reflection);
   defineEnum(defines, "ALBEDO", settings_.albedo);
-  if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
+  if (settings_.steps.stopBelow > 0.0) defines["STOPS"] = "1";
   if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
   if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
   defines["STEPS_TOGETHER"] = "1";
@@ -163,7 +163,7 @@ void LightGrid::update(frame::Frame& frame) {
     inject(frame, restarts ? -1 : static_cast<int>(number % 3), restarts);
   }
   const auto scope = frame.passes().open(kPropagatePass);
-  const bool lasting = settings_.sources == LightSources::Steady;
+  const bool lasting = settings_.steps.sources == LightSources::Steady;
   restartSteps(lasting);
   const int together = together_;
   if (together > 1)
@@ -241,9 +241,9 @@ void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
 
 void LightGrid::restartSteps(bool lasting) {
   step_ = 0;
-  if (settings_.stopBelow > 0.0) {
+  if (settings_.steps.stopBelow > 0.0) {
     changes_.clearUint(0);
-    propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
+    propagate_->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
   }
   for (const gl::Program* program : {arrive_, propagate_, propagateTogether_}) {
     volume_->configure(*program);
@@ -259,7 +259,7 @@ void LightGrid::restartSteps(bool lasting) {
 }
 
 void LightGrid::propagate() {
-  if (settings_.stopBelow > 0.0) {
+  if (settings_.steps.stopBelow > 0.0) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     changes_.bindStorage(kPropagateChangesBuffer);
     propagate_->set("step_", step_);

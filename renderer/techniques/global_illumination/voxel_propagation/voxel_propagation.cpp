@@ -8,7 +8,8 @@
 //   propagation volumes, turn what passes a face into a lobe about one of six axes at each step, so that
 //   light is scattered in empty space; it stays near its source, and the picture is farther from the truth
 //   than one without indirect light.
-// - Sources last (`sources: steady`), so that what arrives need not be summed over steps, and the light of
+// - Sources last (`steps: {sources: steady}`), so that what arrives need not be summed over steps, and the
+// light of
 //   one frame is where that of the next begins.
 // - Light is put in by samples of the surfaces with their areas and a ray to the lamp, in place of fragments
 //   of voxels and a shadow map, into the empty voxel in front.

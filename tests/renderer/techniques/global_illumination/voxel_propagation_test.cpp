@@ -109,7 +109,7 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
          {LightTransport(MomentTransport{}), LightTransport(FaceTransport{})}) {
       LightGridSettings settings;
       settings.resolution = 12, settings.reflection = reflection, settings.transport = transport;
-      settings.sources = LightSources::Once, settings.format = FieldFormat::Single;
+      settings.steps.sources = LightSources::Once, settings.format = FieldFormat::Single;
       const frame::GpuScene gpuScene(box);
       frame::Frame frame(context(), box, gpuScene, {8, 8});
       LightGrid grid(frame, settings, {});
@@ -238,7 +238,7 @@ TEST_F(VoxelPropagationLight, StepsTogetherAreStepsOneByOne) {
     for (const char* format : {"16f", "32f"})
       for (const int64_t iterations : {6, 13}) {
         const auto of = [&](int64_t together) {
-          return indirect(scene, {{"steps_together", together},
+          return indirect(scene, {{"steps.together", together},
                                   {"iterations", iterations},
                                   {"resolution", int64_t{14}},
                                   {"format", std::string(format)}})
@@ -290,10 +290,10 @@ TEST_F(VoxelPropagationLight, StoppingEarlyLeavesThePicture) {
   const Given steps = {
       {"resolution", int64_t{12}}, {"iterations", int64_t{256}}, {"format", std::string("32f")}};
   Given stopped = steps;
-  stopped["stop_below"] = 1e-4;
+  stopped["steps.stop_below"] = 1e-4;
   const Image a = indirect(scene, steps).product, b = indirect(scene, stopped).product;
   EXPECT_LT(error(a, b), 1e-4);
-  stopped["stop_below"] = 1.0;
+  stopped["steps.stop_below"] = 1.0;
   EXPECT_GT(error(a, indirect(scene, stopped).product), 1e-3);
 }
 
