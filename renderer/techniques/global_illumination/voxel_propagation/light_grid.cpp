@@ -21,8 +21,8 @@ namespace {
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
-/// Where a dispatch takes as long as a step of a grid. Software renderers are slowed down by repeated work.
-constexpr int kStepsTogetherOnGpu = 2;
+/// More repeat work around each group; software renderers are only slowed down by that.
+constexpr int kStepsTogetherOnGpu = 1;
 
 constexpr const char* kArrivePass = "global_illumination/arrive";
 
