@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <cassert>
+#include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
 #include <utility>
@@ -13,10 +14,15 @@
 namespace limen::gl {
 
 VolumeTexture::VolumeTexture(Format format, glm::ivec3 size, int levels)
-    : format_(format), size_(size), levels_(levels) {
+    : VolumeTexture(internalFormat(format), bytesPerTexel(format), size, levels) {}
+
+VolumeTexture VolumeTexture::ofSignedShares(glm::ivec3 size) { return {GL_RGBA16_SNORM, 8, size, 1}; }
+
+VolumeTexture::VolumeTexture(uint32_t internal, int texelBytes, glm::ivec3 size, int levels)
+    : internal_(internal), texelBytes_(texelBytes), size_(size), levels_(levels) {
   assert(size.x > 0 && size.y > 0 && size.z > 0 && levels > 0);
   glCreateTextures(GL_TEXTURE_3D, 1, &id_);
-  glTextureStorage3D(id_, levels, internalFormat(format), size.x, size.y, size.z);
+  glTextureStorage3D(id_, levels, internal_, size.x, size.y, size.z);
   const GLenum error = glGetError();
   if (error == GL_OUT_OF_MEMORY || error == GL_INVALID_VALUE) {
     glDeleteTextures(1, &id_);
@@ -36,7 +42,11 @@ VolumeTexture::~VolumeTexture() {
 }
 
 VolumeTexture::VolumeTexture(VolumeTexture&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_), levels_(other.levels_) {}
+    : id_(std::exchange(other.id_, 0)),
+      internal_(other.internal_),
+      texelBytes_(other.texelBytes_),
+      size_(other.size_),
+      levels_(other.levels_) {}
 
 int64_t VolumeTexture::bytes() const {
   int64_t texels = 0;
@@ -44,7 +54,7 @@ int64_t VolumeTexture::bytes() const {
     const glm::ivec3 one = size(level);
     texels += int64_t{one.x} * one.y * one.z;
   }
-  return texels * bytesPerTexel(format_);
+  return texels * texelBytes_;
 }
 
 void VolumeTexture::bindTexture(uint32_t unit) const { glBindTextureUnit(unit, id_); }
@@ -53,12 +63,17 @@ void VolumeTexture::bindImage(uint32_t unit, Access access, int level) const {
   const GLenum how = access == Access::Read    ? GL_READ_ONLY
                      : access == Access::Write ? GL_WRITE_ONLY
                                                : GL_READ_WRITE;
-  glBindImageTexture(unit, id_, level, GL_TRUE, 0, how, internalFormat(format_));
+  glBindImageTexture(unit, id_, level, GL_TRUE, 0, how, internal_);
 }
 
 void VolumeTexture::clear(glm::vec4 value) const {
   for (int level = 0; level < levels_; ++level)
     glClearTexImage(id_, level, GL_RGBA, GL_FLOAT, glm::value_ptr(value));
+}
+
+void VolumeTexture::write(const std::vector<float>& texels) const {
+  assert(texels.size() == size_t{4} * size_t(size_.x) * size_t(size_.y) * size_t(size_.z));
+  glTextureSubImage3D(id_, 0, 0, 0, 0, size_.x, size_.y, size_.z, GL_RGBA, GL_FLOAT, texels.data());
 }
 
 }  // namespace limen::gl

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "renderer/gl/texture.h"
 
@@ -13,6 +14,8 @@ class VolumeTexture {
  public:
   /// Throws Error if the device cannot hold it.
   VolumeTexture(Format format, glm::ivec3 size, int levels);
+  /// Four channels from -1 to 1, of 16 bits each; one level. Only to be read.
+  static VolumeTexture ofSignedShares(glm::ivec3 size);
   ~VolumeTexture();
   VolumeTexture(VolumeTexture&& other) noexcept;
   VolumeTexture& operator=(VolumeTexture&&) = delete;
@@ -25,10 +28,14 @@ class VolumeTexture {
   void bindTexture(uint32_t unit) const;
   void bindImage(uint32_t unit, Access access, int level = 0) const;
   void clear(glm::vec4 value) const;  ///< all levels
+  /// The finest level of a float format, from four floats a texel.
+  void write(const std::vector<float>& texels) const;
 
  private:
-  uint32_t id_ = 0;
-  Format format_;
+  VolumeTexture(uint32_t internal, int texelBytes, glm::ivec3 size, int levels);
+
+  uint32_t id_ = 0, internal_;
+  int texelBytes_;
   glm::ivec3 size_;
   int levels_;
 };

@@ -14,6 +14,10 @@ const uint kPathSumsImage = 0u;
 const uint kPathSumsUnit = 0u;
 const uint kPathPictureImage = 0u;
 
+// Pictures of indirect light.
+const uint kIndirectIdsUnit = 0u;
+const uint kIndirectPictureImage = 0u;
+
 // Light in voxels. Fields are arrays of 3 channels of as many layers as the grid has. Units 12 to 14 are the volume's, storage
 // buffers 0 to 7 the scene's and its tree's.
 struct InjectCounts {  // std430
@@ -30,21 +34,30 @@ const int kPropagateGroup = 4;
 const uint kPropagateFieldUnit = 0u;
 const uint kPropagateSourceUnit = 1u;
 const uint kShareTableUnit = 2u;
+const uint kLightCellsUnit = 3u;
 const uint kPropagateOutImage = 1u;
+const uint kSeedFieldImage = 2u;
+const uint kLightCellsImage = 1u;
+// Bits of a voxel's word (voxel_propagation/light_cells.glsl); the first two: of face 0, the others follow.
+const int kCellBesideSurface = 0;  // the voxel beyond the face is occupied
+const int kCellBesideLight = 6;    // it may hold light
+const int kCellSurface = 12;
+const int kCellLight = 13;
+const int kCellEdge = 14;  // surfaces of several directions: an edge, a thin wall
 const uint kPropagateChangesBuffer = 8u;
 const uint kPropagateSumImage = 2u;
+const int kLightFluxGroup = 64;
+const uint kLightFluxBuffer = 8u;
 const int kReflectiveRayGroup = 64;
-const uint kArriveFacesImage = 1u;
-const uint kReconstructIdsUnit = 0u;
+const uint kArriveFacesImage = 0u;
 const uint kReconstructArrivedUnit = 1u;
-const uint kReconstructOutImage = 0u;
 // Pyramid of voxels' radiance: sums of a voxel, of each face its area and three channels; six faces' textures and images.
 const uint kFaceSums = 24u;
 const uint kFaceSumsBuffer = 8u;
 const uint kRadianceUnit = 2u;
 const uint kRadianceFacesImage = 1u;
 const int kMostConeSteps = 64;
-// Table of shares (voxel_propagation/lobe_shares.h): texels a side, and focuses.
+// Table of shares (voxel_propagation/lobe_shares.h): texels along x and y, focuses along z for each face.
 const int kShareSide = 16;
 const int kShareLevels = 16;
 

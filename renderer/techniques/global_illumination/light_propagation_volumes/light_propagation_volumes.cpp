@@ -8,9 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/indirect_picture.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_dispatch.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/voxels/voxelizer.h"
 
@@ -29,10 +30,21 @@ constexpr EnumNames<VolumeLookup, 2> enumNames(VolumeLookup) {
   return {{{{VolumeLookup::Intensity, "intensity"}, {VolumeLookup::Cosine, "cosine"}}}};
 }
 
+enum class VolumeBlockers {
+  None,
+  Fronts,  ///< surfaces block light towards their fronts, as published
+  Sides    ///< and towards their backs: also what they reflect themselves, which starts in their voxels
+};
+constexpr EnumNames<VolumeBlockers, 3> enumNames(VolumeBlockers) {
+  return {{{{VolumeBlockers::None, "none"},
+            {VolumeBlockers::Fronts, "fronts"},
+            {VolumeBlockers::Sides, "sides"}}}};
+}
+
 struct PropagationVolumeSettings {
   int resolution = 32, iterations = 16, rays = 16384;
   double shift = 0.5;
-  bool blockers = false;
+  VolumeBlockers blockers = VolumeBlockers::None;
   VolumeLookup lookup = VolumeLookup::Intensity;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<PropagationVolumeSettings>& table() {
@@ -58,7 +70,7 @@ struct PropagationVolumeSettings {
          "voxels",
          "From surfaces, where light starts and is looked up",
          kPaper},
-        {&S::blockers, "blockers", "Surfaces in a voxel block light by their normals", kPaper},
+        {&S::blockers, "blockers", "Which light the surfaces in a voxel block, by their normals", kPaper},
         {&S::lookup, "lookup", "How pixels get light from voxels", kPaper},
         included(&S::surfaces)};
     return kTable;
@@ -74,54 +86,47 @@ class LightPropagationVolumes : public Technique {
     const std::string folder = "renderer/techniques/global_illumination/";
     gl::Context& context = frame.context();
     gl::ProgramCache& programs = context.programs();
-    voxels::VolumeAttributes attributes{false, settings_.blockers, gl::Format::RGBA16F};
+    voxels::VolumeAttributes attributes{false, settings_.blockers != VolumeBlockers::None,
+                                        gl::Format::RGBA16F};
     volume_.emplace(context, voxels::tightGrid(frame.scene().bounds(), settings_.resolution),
                     frame.gpuScene().anchor(), attributes);
-    if (settings_.blockers) voxelizer_.emplace(frame, voxels::Coverage::Thin, *volume_);
+    if (attributes.normal) voxelizer_.emplace(frame, voxels::Coverage::Thin, *volume_);
     gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
     defines.merge(volume_->defines());
     inject_ = &programs.compute(folder + "light_propagation_volumes/reflective_rays.comp.glsl", defines);
-    gl::ShaderDefines lookup = defines;
+    gl::ShaderDefines lookup = volume_->defines();
     defineEnum(lookup, "LOOKUP", settings_.lookup);
-    reconstruct_ = &programs.compute(folder + "light_propagation_volumes/reconstruct_free.comp.glsl", lookup);
+    picture_.emplace(frame, folder + "light_propagation_volumes/reconstruct_free.comp.glsl", lookup,
+                     settings_.surfaces, kFreeReconstructPass);
     defines = volume_->defines();
     defines["FIELD_FORMAT"] = "rgba16f";
     seed_ = &programs.compute(folder + "voxel_propagation/seed.comp.glsl", defines);
     defines["TRANSPORT"] = "1", defines["TRANSPORT_MOMENTS"] = "0", defines["TRANSPORT_FACES"] = "1";
-    if (settings_.blockers) defines["BLOCKERS"] = "1";
+    defineEnum(defines, "BLOCKERS", settings_.blockers);
     propagate_ = &programs.compute(folder + "light_propagation_volumes/propagate_free.comp.glsl", defines);
     const glm::ivec3 size = volume_->grid().resolution;
     sums_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, 12 * size.z);
     for (std::optional<gl::Texture>* texture : {&field_, &next_, &light_})
       texture->emplace(gl::Format::RGBA16F, glm::ivec2(size), 1, 3 * size.z);
-    picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
     frame.passes().setBytesHeld(kFreeInjectPass, sums_->bytes());
     frame.passes().setBytesHeld(kFreePropagatePass, field_->bytes() + next_->bytes() + light_->bytes());
-    frame.passes().setBytesHeld(kFreeReconstructPass, picture_->bytes());
   }
 
   void render(frame::Frame& frame) override {
-    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     if (voxelizer_) {
       const auto scope = frame.passes().open("global_illumination/voxelize");
       voxelizer_->run(frame, *volume_);
     }
     inject(frame);
     propagate(frame);
-    const auto scope = frame.passes().open(kFreeReconstructPass);
-    configureSurfaceLight(*reconstruct_, frame, settings_.surfaces);
-    volume_->configure(*reconstruct_);
-    reconstruct_->set("shift", static_cast<float>(settings_.shift));
-    reconstruct_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
-    reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
-    ids.bindTexture(kReconstructIdsUnit);
-    (settings_.iterations > 0 ? light_ : field_)->bindTexture(kReconstructArrivedUnit);
-    picture_->bindImage(kReconstructOutImage, gl::Access::Write);
-    reconstruct_->dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    picture_->render(frame, [&](const gl::Program& program) {
+      volume_->configure(program);
+      program.set("shift", static_cast<float>(settings_.shift));
+      (settings_.iterations > 0 ? light_ : field_)->bindTexture(kReconstructArrivedUnit);
+    });
   }
 
-  const gl::Texture& product() const override { return *picture_; }
+  const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame&) override {
     return {{"voxel_steps", double(volume_->grid().count()) * settings_.iterations},
@@ -131,11 +136,7 @@ class LightPropagationVolumes : public Technique {
  private:
   void overField() const {
     const glm::ivec3 size = volume_->grid().resolution;
-    const glm::ivec3 groups =
-        (glm::ivec3(size.x, size.y, 3 * size.z) + kPropagateGroup - 1) / kPropagateGroup;
-    glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                      static_cast<GLuint>(groups.z));
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    dispatchVoxels({size.x, size.y, 3 * size.z});
   }
 
   void inject(frame::Frame& frame) {
@@ -172,13 +173,14 @@ class LightPropagationVolumes : public Technique {
   Settings settings_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
-  const gl::Program *inject_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr, *reconstruct_ = nullptr;
-  std::optional<gl::Texture> sums_, field_, next_, light_, picture_;
+  const gl::Program *inject_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr;
+  std::optional<gl::Texture> sums_, field_, next_, light_;
+  std::optional<IndirectPicture> picture_;
 };
 
 const RegisteredTechnique<LightPropagationVolumes> kLightPropagationVolumesRegistered{
     {.name = "global_illumination/light_propagation_volumes",
-     .version = 1,
+     .version = 2,
      .summary = "One bounce of the lamp's light spread in a grid without surfaces, or with blockers",
      .source = "Kaplanyan and Dachsbacher 2010; Gaitatzes 2012, section 5.6 (BL-04)",
      .product = ProductKind::Colour,

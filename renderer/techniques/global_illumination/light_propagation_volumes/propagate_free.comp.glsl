@@ -20,10 +20,16 @@ void main() {
     const ivec3 from = voxel - ivec3(faceDirection(face));
     if (!isInGrid(from)) continue;
     float passing = 1.0;
-#ifdef BLOCKERS
+#if BLOCKERS != BLOCKERS_NONE
     if (isOccupied(from)) {
       const vec4 surface = texelFetch(volumeNormal, from, 0);
-      passing -= surface.w * min(abs(dot(surface.xyz, faceDirection(face))), 1.0);
+      const float along = dot(surface.xyz, faceDirection(face));
+#if BLOCKERS == BLOCKERS_FRONTS
+      // A surface blocks what comes towards its front, not what it sends itself, which starts in its own voxel.
+      passing -= surface.w * clamp(-along, 0.0, 1.0);
+#else
+      passing -= surface.w * min(abs(along), 1.0);
+#endif
     }
 #endif
     light += passing * towards(texelFetch(field, from + ivec3(0, 0, channel * gridSizeZ), 0), face) / 12.5663706;

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Indirect light of each pixel's point from the light that has passed the voxels around it, and its direct light.
-#include "renderer/techniques/global_illumination/illumination_bindings.h"
-
-layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
-layout(binding = kReconstructIdsUnit) uniform usampler2D triangleIds;
-layout(binding = kReconstructArrivedUnit) uniform sampler2DArray light;
-layout(binding = kReconstructOutImage, rgba32f) uniform writeonly image2D picture;
-
-uniform ivec2 sizePx;
-uniform float shift;
-uniform bool withDirect, withIndirect;
-#include "renderer/techniques/global_illumination/surface_light.glsl"
+// Indirect light of each pixel's point from the light that has passed the voxels around it.
+#include "renderer/techniques/global_illumination/indirect_picture.glsl"
 #include "renderer/voxels/volume.glsl"
+
+layout(binding = kReconstructArrivedUnit) uniform sampler2DArray light;
+uniform float shift;
 
 // Irradiance over pi, from the sum of all flux that has entered a voxel. By intensity, as published: (flux + 3 vector) / 4 pi against
 // the normal, over the square of half a voxel: 3 / pi of the flux of a clamped cosine along the normal, and 6 / pi = 1.9 times the
@@ -43,18 +36,4 @@ vec3 passingLight(SurfacePoint point) {
   return max(sum, 0.0) / 3.14159265;
 }
 
-void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, sizePx))) return;
-  const uint id = texelFetch(triangleIds, pixel, 0).x;
-  vec3 colour = vec3(0.0);
-  if (id != kRayNoTriangle) {
-    SeenPoint seen;
-    const SurfacePoint point = surfaceSeen(pixel, id, seen);
-    const vec3 albedo = reflectance(point);
-    if (withDirect) colour += emitted(point) + albedo * lampRadiance(point);
-    if (withIndirect) colour += albedo * passingLight(point);
-    if (rayCutShort) colour = vec3(uintBitsToFloat(0x7fc00000u));
-  }
-  imageStore(picture, pixel, vec4(colour, 1.0));
-}
+vec3 indirectLight(SurfacePoint point, vec3 albedo) { return albedo * passingLight(point); }

@@ -11,6 +11,7 @@
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/light_box.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_dispatch.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/surface_samples.h"
 
 namespace limen::techniques {
@@ -21,13 +22,6 @@ constexpr int kMostLevels = 6;
 
 int levelsOf(int resolution) {
   return std::min(static_cast<int>(std::bit_width(static_cast<uint32_t>(resolution))) - 1, kMostLevels);
-}
-
-void overTexels(glm::ivec3 size) {
-  const glm::ivec3 groups = (size + kPropagateGroup - 1) / kPropagateGroup;
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 }  // namespace
@@ -164,7 +158,7 @@ void RadiancePyramid::make(frame::Frame& frame) {
       faces_[6 * now_ + face].bindImage(kRadianceFacesImage + static_cast<uint32_t>(face), gl::Access::Write);
     sums_->bindStorage(kFaceSumsBuffer);
     program.use();
-    overTexels(volume_->grid().resolution);
+    dispatchVoxels(volume_->grid().resolution);
     makeLevels();
   }
 }

@@ -11,6 +11,7 @@
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/light_box.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/voxel_dispatch.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/lobe_shares.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/surface_samples.h"
 
@@ -20,16 +21,12 @@ namespace {
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
+/// More repeat work around each group; software renderers are only slowed down by that.
+constexpr int kStepsTogetherOnGpu = 1;
+
 constexpr const char* kArrivePass = "global_illumination/arrive";
 
 const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
-
-void overVoxels(glm::ivec3 size) {
-  const glm::ivec3 groups = (size + kPropagateGroup - 1) / kPropagateGroup;
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-}
 
 voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& settings) {
   if (const auto* box = std::get_if<BoxAroundCamera>(&settings.box)) {
@@ -58,11 +55,16 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
       lighting_(lighting),
       bounds_(frame.scene().bounds()),
       counts_(sizeof(InjectCounts), nullptr),
+      layerSums_(4, nullptr),
       changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
   gl::Context& context = frame.context();
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
+  if (settings.steps.sources == LightSources::Steady && settings.steps.stopBelow == 0.0)
+    together_ = settings.steps.together > 0 ? settings.steps.together
+                : context.device().software ? 1
+                                            : kStepsTogetherOnGpu;
   compile(frame);
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
@@ -75,19 +77,25 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   sums_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, 12 * size.z * sets);
   for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));
   const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
-  for (std::optional<gl::Texture>* texture : {&source_, &field_, &next_})
-    texture->emplace(format, glm::ivec2(size), 1, 3 * size.z);
-  const bool summed = settings.sources == LightSources::Once;
+  source_.emplace(format, glm::ivec2(size), 1, 3 * size.z);
+  fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z);
+  layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
+  lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
+  const bool summed = settings.steps.sources == LightSources::Once;
   arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
   arrived_->clear(glm::vec4(0.0F));
   if (std::holds_alternative<MomentTransport>(settings.transport)) {
-    static const Image kTable = shareTable();
-    shares_.emplace(gl::Format::RGBA32F, glm::ivec2(kTable.width, kTable.height), 1, 0, gl::Sampling::Linear);
+    static const std::vector<float> kTable = shareTable();
+    const glm::ivec3 sides(kShareSide, kShareSide, kShareLevels * 6);
+    if (settings.format == FieldFormat::Half)
+      shares_.emplace(gl::VolumeTexture::ofSignedShares(sides));
+    else
+      shares_.emplace(gl::Format::RGBA32F, sides, 1);
     shares_->write(kTable);
   }
-  frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes());
+  frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
   frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
-  frame.passes().setBytesHeld(kPropagatePass, field_->bytes() + next_->bytes());
+  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes());
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
@@ -98,14 +106,18 @@ void LightGrid::compile(frame::Frame& frame) {
   inject_ = &programs.compute(kLightGridFolder + "inject.comp.glsl", defines);
   defines = volume_->defines();
   defines["FIELD_FORMAT"] = settings_.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
-  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", defines);
+  gl::ShaderDefines seeding = defines;
+  seeding["FIELD_TOO"] = "1";
+  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", seeding);
+  flux_ = &programs.compute(kLightGridFolder + "light_flux.comp.glsl");
+  cells_ = &programs.compute(kLightGridFolder + "light_cells.comp.glsl", defines);
   for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
     defines["TRANSPORT_" + std::string(name)] = std::to_string(std::string(name) == "MOMENTS" ? 0
                                                                : std::string(name) == "FACES" ? 1
                                                                : std::string(name) == "CONES" ? 2
                                                                                               : 3);
   defines["TRANSPORT"] = std::to_string(settings_.transport.index());
-  const bool summed = settings_.sources == LightSources::Once;
+  const bool summed = settings_.steps.sources == LightSources::Once;
   gl::ShaderDefines arriving = defines;
   arriving["ARRIVED_FORMAT"] = summed ? "rgba32f" : defines["FIELD_FORMAT"];
   arriving["ARRIVED_ACCESS"] = summed ? "" : "writeonly";
@@ -113,9 +125,14 @@ void LightGrid::compile(frame::Frame& frame) {
   arrive_ = &programs.compute(kLightGridFolder + "arrive.comp.glsl", arriving);
   defineEnum(defines, "REFLECTION", settings_.reflection);
   defineEnum(defines, "ALBEDO", settings_.albedo);
-  if (settings_.stopBelow > 0.0) defines["STOPS"] = "1";
+  if (settings_.steps.stopBelow > 0.0) defines["STOPS"] = "1";
+  if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
+  if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
+  defines["STEPS_TOGETHER"] = "1";
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  for (const gl::Program* program : {propagate_, arrive_}) {
+  defines["STEPS_TOGETHER"] = std::to_string(together_);
+  propagateTogether_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
+  for (const gl::Program* program : {propagate_, propagateTogether_, arrive_}) {
     if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
       const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
       setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
@@ -128,8 +145,8 @@ void LightGrid::compile(frame::Frame& frame) {
 }
 
 int64_t LightGrid::bytes() const {
-  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + field_->bytes() +
-         next_->bytes() + arrived_->bytes();
+  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + fields_->bytes() +
+         lightCells_->bytes() + arrived_->bytes();
 }
 
 void LightGrid::update(frame::Frame& frame) {
@@ -143,25 +160,28 @@ void LightGrid::update(frame::Frame& frame) {
   voxelize(frame);
   {
     const auto scope = frame.passes().open(kInjectPass);
-    inject(frame, restarts ? -1 : static_cast<int>(number % 3));
+    inject(frame, restarts ? -1 : static_cast<int>(number % 3), restarts);
   }
   const auto scope = frame.passes().open(kPropagatePass);
-  if (restarts) begun_ = false;
-  restartSteps();
-  const bool lasting = settings_.sources == LightSources::Steady;
-  for (int step = 0; step < settings_.iterations; ++step) {
-    if (!lasting) arrive(step == 0);
-    propagate(lasting);
-  }
+  const bool lasting = settings_.steps.sources == LightSources::Steady;
+  restartSteps(lasting);
+  const int together = together_;
+  if (together > 1)
+    for (int left = settings_.iterations; left > 0; left -= together)
+      propagateTogether(std::min(left, together));
+  else
+    for (int step = 0; step < settings_.iterations; ++step) {
+      if (!lasting) arrive(step == 0);
+      propagate();
+    }
   if (lasting || settings_.iterations == 0) arrive(true);
 }
 
 void LightGrid::start(frame::Frame& frame) {
   place(frame);
   voxelize(frame);
-  inject(frame, -1);
-  begun_ = false;
-  restartSteps();
+  inject(frame, -1, true);
+  restartSteps(false);
 }
 
 bool LightGrid::place(const frame::Frame& frame) {
@@ -184,9 +204,13 @@ void LightGrid::configureBounds(const gl::Program& program) const {
 void LightGrid::voxelize(frame::Frame& frame) {
   const auto scope = frame.passes().open(kVoxelizePass);
   voxelizer_->run(frame, *volume_);
+  configureBounds(*cells_);
+  lightCells_->bindImage(kLightCellsImage, gl::Access::Write);
+  cells_->use();
+  dispatchVoxels(volume_->grid().resolution);
 }
 
-void LightGrid::inject(frame::Frame& frame, int axis) {
+void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
   counts_.clearUint(0);
   configureSurfaceLight(*inject_, frame, lighting_);
   configureBounds(*inject_);
@@ -207,58 +231,84 @@ void LightGrid::inject(frame::Frame& frame, int axis) {
   seed_->set("sumSets", static_cast<int>(sumsOfAxis_.size()));
   sums_->bindImage(kInjectSumsImage, gl::Access::Read);
   source_->bindImage(kPropagateOutImage, gl::Access::Write);
+  fields_->bindImage(kSeedFieldImage, gl::Access::Write);
+  if (restart) from_ = 0;
+  seed_->set("restart", restart ? 1 : 0);
   seed_->use();
   const glm::ivec3 size = volume_->grid().resolution;
-  overVoxels({size.x, size.y, 3 * size.z});
+  dispatchVoxels({size.x, size.y, 3 * size.z});
 }
 
-void LightGrid::restartSteps() {
+void LightGrid::restartSteps(bool lasting) {
   step_ = 0;
-  if (settings_.stopBelow > 0.0) {
+  if (settings_.steps.stopBelow > 0.0) {
     changes_.clearUint(0);
-    propagate_->set("stopBelow", static_cast<float>(settings_.stopBelow));
+    propagate_->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
   }
-  configureBounds(*arrive_);
-  configureBounds(*propagate_);
+  for (const gl::Program* program : {arrive_, propagate_, propagateTogether_}) {
+    volume_->configure(*program);
+    program->set("from", from_);
+    program->set("lasting", lasting ? 1 : 0);
+  }
   if (shares_) shares_->bindTexture(kShareTableUnit);
+  lightCells_->bindTexture(kLightCellsUnit);
+  fields_->bindTexture(kPropagateFieldUnit);
   source_->bindTexture(kPropagateSourceUnit);
+  fields_->bindImage(kPropagateOutImage, gl::Access::Write);
+  arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
 }
 
-void LightGrid::propagate(bool lasting) {
-  current().bindTexture(kPropagateFieldUnit);
-  next_->bindImage(kPropagateOutImage, gl::Access::Write);
-  propagate_->set("lasting", lasting ? 1 : 0);
-  if (settings_.stopBelow > 0.0) {
+void LightGrid::propagate() {
+  if (settings_.steps.stopBelow > 0.0) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     changes_.bindStorage(kPropagateChangesBuffer);
     propagate_->set("step_", step_);
   }
+  propagate_->set("from", from_);
   propagate_->use();
   const glm::ivec3 size = volume_->grid().resolution;
-  overVoxels({size.x, size.y, 3 * size.z});
-  std::swap(field_, next_);
-  begun_ = true;
+  dispatchVoxels({size.x, size.y, 3 * size.z});
+  from_ = 1 - from_;
   ++step_;
 }
 
+void LightGrid::propagateTogether(int steps) {
+  propagateTogether_->set("from", from_);
+  propagateTogether_->set("steps", steps);
+  propagateTogether_->use();
+  const glm::ivec3 groups = (volume_->grid().resolution + (kPropagateGroup - 1)) / kPropagateGroup;
+  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
+                    static_cast<GLuint>(3 * groups.z));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  from_ = 1 - from_;
+  step_ += steps;
+}
+
 void LightGrid::arrive(bool first) {
-  current().bindTexture(kPropagateFieldUnit);
-  arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
+  arrive_->set("from", from_);
   arrive_->set("first", first ? 1 : 0);
   arrive_->use();
-  overVoxels(volume_->grid().resolution);
+  const glm::ivec3 size = volume_->grid().resolution;
+  dispatchVoxels({size.x, size.y, 6 * size.z});
+}
+
+Image LightGrid::fieldLayer(int channel, int z) const {
+  return fields_->readLayer((3 * from_ + channel) * volume_->grid().resolution.z + z);
 }
 
 glm::dvec3 LightGrid::flux() const {
   const int depth = volume_->grid().resolution.z;
+  fields_->bindTexture(kPropagateFieldUnit);
+  layerSums_.bindStorage(kLightFluxBuffer);
+  flux_->set("firstLayer", 3 * from_ * depth);
+  flux_->use();
+  glDispatchCompute(static_cast<GLuint>(3 * depth), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const std::vector<float> sums = layerSums_.read<float>();
   const double h = volume_->grid().voxelSize;
   glm::dvec3 out(0.0);
-  for (int channel = 0; channel < 3; ++channel)
-    for (int z = 0; z < depth; ++z) {
-      const Image layer = current().readLayer(channel * depth + z);
-      for (size_t i = 0; i < layer.pixels(); ++i) out[channel] += layer.data[4 * i];
-    }
-  return h * h * out;
+  for (int layer = 0; layer < 3 * depth; ++layer) out[layer / depth] += h * h * double(sums[size_t(layer)]);
+  return out;
 }
 
 uint32_t LightGrid::homeless() const {

@@ -9,6 +9,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
+#include "renderer/gl/volume_texture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
 #include "renderer/voxels/voxelizer.h"
 
@@ -28,20 +29,26 @@ class LightGrid {
   /// Light at the faces of occupied voxels, as the settings update it in this frame.
   void update(frame::Frame& frame);
 
-  /// RGBA: flux at each face of occupied voxels, alpha 1 where the voxel beyond is empty. Layer: face * depth
-  /// + z.
+  /// RGBA: flux at each face of occupied voxels, alpha 1 where the voxel beyond is empty; 0 elsewhere. Layer:
+  /// face * depth + z.
   const gl::Texture& arrived() const { return *arrived_; }
   const voxels::Volume& volume() const { return *volume_; }
+  /// Words of light_cells.glsl.
+  const gl::Texture& lightCells() const { return *lightCells_; }
   int64_t bytes() const;
 
   /// Steps apart, for counting and tests: voxels and sources of the frame, all made anew; one step of light
   /// that was put in once.
   void start(frame::Frame& frame);
-  void propagate(bool lasting);
+  void propagate();
+  /// Steps of one dispatch at most, with the same result.
+  int stepsTogether() const { return together_; }
+  /// That many steps in one dispatch.
+  void propagateTogether(int steps);
   /// Adds what the field sends to occupied voxels to what has arrived, or replaces it.
   void arrive(bool first);
-  /// Array of three channels, flux and vector of each voxel: light on its way. Layer: channel * depth + z.
-  const gl::Texture& field() const { return current(); }
+  /// One layer of the field, flux and vector of each voxel: light on its way. Waits for the GPU.
+  Image fieldLayer(int channel, int z) const;
   /// Flux that the field holds, per channel, in radiance times world units squared. Waits for the GPU.
   glm::dvec3 flux() const;
   /// Samples of surfaces whose light found no empty voxel. Waits for the GPU.
@@ -53,24 +60,30 @@ class LightGrid {
   bool place(const frame::Frame& frame);
   void configureBounds(const gl::Program& program) const;
   void voxelize(frame::Frame& frame);
-  /// Of surfaces that face `axis`, if they are put in apart; negative: all.
-  void inject(frame::Frame& frame, int axis);
-  void restartSteps();
-  const gl::Texture& current() const { return begun_ ? *field_ : *source_; }
+  /// Of surfaces that face `axis`, if they are put in apart; negative: all. `restart`: the field becomes what
+  /// is put in.
+  void inject(frame::Frame& frame, int axis, bool restart);
+  void restartSteps(bool lasting);
 
   LightGridSettings settings_;
   frame::SurfaceLightSettings lighting_;
   scene::Bounds bounds_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
-  const gl::Program *inject_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr, *arrive_ = nullptr;
-  std::optional<gl::Texture> samples_, sums_, source_, field_, next_, arrived_, shares_;
+  const gl::Program *inject_ = nullptr, *cells_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr,
+                    *propagateTogether_ = nullptr, *arrive_ = nullptr, *flux_ = nullptr;
+  std::optional<gl::Texture> samples_, sums_, source_, arrived_, lightCells_;
+  /// Two, of which a step reads one and writes the other. Both are one texture, so that nothing is bound
+  /// between steps: drivers take longer for that than small grids do for a step.
+  std::optional<gl::Texture> fields_;
+  std::optional<gl::VolumeTexture> shares_;
   std::vector<gl::Texture> sumsOfAxis_;
-  gl::Buffer counts_, changes_;
+  gl::Buffer counts_, layerSums_, changes_;
   uint32_t sampleCount_ = 0;
   int64_t frames_ = 0;
-  int step_ = 0;        ///< of this frame
-  bool begun_ = false;  ///< false: the field is the source
+  int together_ = 1;
+  int step_ = 0;  ///< of this frame
+  int from_ = 0;  ///< the field that holds the light
 };
 
 }  // namespace limen::techniques

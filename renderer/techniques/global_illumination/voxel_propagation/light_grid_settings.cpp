@@ -59,6 +59,26 @@ const SettingsTable<UpdateEvery>& UpdateEvery::table() {
                                            "Gaitatzes 2012, section 5.7"}};
   return kTable;
 }
+const SettingsTable<StepSettings>& StepSettings::table() {
+  using S = StepSettings;
+  static const SettingsTable<S> kTable = {
+      {&S::sources, "sources", "When light is put in", "Gaitatzes 2012, section 5.5.2"},
+      {&S::together,
+       "together",
+       {0, 3},
+       "",
+       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in "
+       "once "
+       "or steps may stop early",
+       "the bench's own"},
+      {&S::stopBelow,
+       "stop_below",
+       {0.0, 1.0},
+       "",
+       "Largest change of a voxel's flux in a step, in radiance times pi, below which steps end; 0: never",
+       "the bench's own"}};
+  return kTable;
+}
 const SettingsTable<LightGridSettings>& LightGridSettings::table() {
   using S = LightGridSettings;
   constexpr const char* kChapter = "Gaitatzes 2012, section 5.5.2";
@@ -75,21 +95,15 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
        "",
        "Steps of a voxel that light travels in a frame",
        "Gaitatzes 2012, Table 2 (11, 12, 64)"},
+      {&S::steps, "steps", "How they are done"},
       {&S::transport, "transport", "How light goes from a voxel to its neighbours", kTransportSource},
-      {&S::sources, "sources", "When light is put in", kChapter},
       {&S::reflection, "reflection", "At occupied voxels", kChapter},
       {&S::albedo, "albedo", "Of the reflection: stored, or .5 everywhere", "Gaitatzes 2012, section 5.7"},
       {&S::format, "format", "Of the fields"},
       {&S::coverage, "coverage", "Which voxels a triangle fills"},
       {&S::box, "box", "Where voxels are"},
       {&S::update, "update", "What is made anew in a frame", "Gaitatzes 2012, section 5.7"},
-      {&S::injection, "injection", "How light is put in"},
-      {&S::stopBelow,
-       "stop_below",
-       {0.0, 1.0},
-       "",
-       "Largest change of a voxel's flux in a step, in radiance times pi, below which steps end; 0: never",
-       "the bench's own"}};
+      {&S::injection, "injection", "How light is put in"}};
   return kTable;
 }
 

@@ -99,10 +99,17 @@ struct UpdateOn {
 };
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
+struct StepSettings {
+  LightSources sources = LightSources::Steady;
+  int together = 0;
+  double stopBelow = 0.0;
+  static const SettingsTable<StepSettings>& table();
+};
+
 struct LightGridSettings {
   int resolution = 16, iterations = 64;
+  StepSettings steps;
   LightTransport transport;
-  LightSources sources = LightSources::Steady;
   GridReflection reflection = GridReflection::Diffuse;
   GridAlbedo albedo = GridAlbedo::Stored;
   FieldFormat format = FieldFormat::Half;
@@ -110,7 +117,6 @@ struct LightGridSettings {
   GridBox box;
   GridUpdate update;
   InjectionSettings injection;
-  double stopBelow = 0.0;
   static const SettingsTable<LightGridSettings>& table();
 };
 

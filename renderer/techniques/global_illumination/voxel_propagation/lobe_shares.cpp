@@ -12,6 +12,13 @@ namespace {
 
 constexpr int kHeights = 24, kTurns = 48;  // of the directions that stand for a lobe
 
+/// Rounds shares to multiples of 1 / 32767; the largest takes what that leaves of 1.
+void wholeSteps(std::array<double, 6>& shares) {
+  double sum = 0.0;
+  for (double& share : shares) sum += share = std::round(32767.0 * share) / 32767.0;
+  *std::max_element(shares.begin(), shares.end()) += 1.0 - sum;
+}
+
 }  // namespace
 
 FaceShares faceShares(double focus, glm::dvec3 axis) {
@@ -43,18 +50,19 @@ FaceShares faceShares(double focus, glm::dvec3 axis) {
   return out;
 }
 
-Image shareTable() {
+std::vector<float> shareTable() {
   const int side = kShareSide, levels = kShareLevels;
-  Image table(side, side * levels * 6, 4);
+  std::vector<float> table(size_t{4} * size_t(side * side * levels * 6));
   for (int level = 0; level < levels; ++level)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
         const double last = side - 1, a = x / last, z = y / last;
         const glm::dvec3 axis = glm::normalize(glm::dvec3(a * (1.0 - z), (1.0 - a) * (1.0 - z), z));
-        const FaceShares shares = faceShares(double(level) / (levels - 1), axis);
+        FaceShares shares = faceShares(double(level) / (levels - 1), axis);
+        wholeSteps(shares.flux);
         for (int face = 0; face < 6; ++face) {
-          const int row = side * (face * levels + level) + y;
-          float* texel = &table.data[4 * (size_t(row) * size_t(side) + size_t(x))];
+          const int slice = face * levels + level;
+          float* texel = &table[4 * (size_t(slice * side + y) * size_t(side) + size_t(x))];
           texel[0] = static_cast<float>(shares.flux[size_t(face)]);
           for (int c = 0; c < 3; ++c) texel[c + 1] = static_cast<float>(shares.vector[size_t(face)][c]);
         }

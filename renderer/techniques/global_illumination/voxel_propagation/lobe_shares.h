@@ -3,8 +3,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
-
-#include "experiments/base/image.h"
+#include <vector>
 
 namespace limen::techniques {
 
@@ -20,9 +19,11 @@ struct FaceShares {
 };
 FaceShares faceShares(double focus, glm::dvec3 axis);
 
-/// The same as a texture, RGBA32F: share and vector, of axes with components >= 0; transport.glsl reads it.
-/// Column x / (x + y) and row z / (x + y + z) of the axis, from 0 to 1 at the middles of the first and last
-/// texel; blocks of rows for each focus, and of these for each face.
-Image shareTable();
+/// The same as texels of a volume of kShareSide x kShareSide x (kShareLevels * 6), share and vector, of axes
+/// with components >= 0; transport.glsl reads it. Along x: x / (x + y) of the axis, along y: z / (x + y + z),
+/// from 0 to 1 at the middles of the first and last texel; along z the focuses, for one face after another.
+/// Shares are whole multiples of 1 / 32767 and still sum to 1, so that 16 bits hold them exactly and create
+/// no light.
+std::vector<float> shareTable();
 
 }  // namespace limen::techniques

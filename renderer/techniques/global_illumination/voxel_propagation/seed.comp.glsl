@@ -5,6 +5,10 @@
 layout(local_size_x = kPropagateGroup, local_size_y = kPropagateGroup, local_size_z = kPropagateGroup) in;
 layout(binding = kInjectSumsImage, r32ui) uniform readonly uimage2DArray sums;
 layout(binding = kPropagateOutImage, FIELD_FORMAT) uniform writeonly image2DArray source;
+#ifdef FIELD_TOO
+layout(binding = kSeedFieldImage, FIELD_FORMAT) uniform writeonly image2DArray field;
+uniform bool restart;  // the field is the source
+#endif
 uniform int sumSets;  // volumes of sums, one after another, that are added
 #include "renderer/voxels/volume.glsl"
 
@@ -19,4 +23,7 @@ void main() {
                         imageLoad(sums, first + 3 * next).x));
   }
   imageStore(source, at, light / kInjectFixed);
+#ifdef FIELD_TOO
+  if (restart) imageStore(field, at, light / kInjectFixed);
+#endif
 }

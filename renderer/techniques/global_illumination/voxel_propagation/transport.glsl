@@ -9,25 +9,19 @@ vec3 faceDirection(int face) {
 }
 
 #if TRANSPORT == TRANSPORT_MOMENTS
-layout(binding = kShareTableUnit) uniform sampler2D shareTable;  // see lobe_shares.h
+layout(binding = kShareTableUnit) uniform sampler3D shareTable;  // see lobe_shares.h
 
+// Without branches, so that all fetches of a step are under way at once.
 vec4 leaving(vec4 light, int face) {
-  if (!(light.x > 0.0)) return vec4(0.0);
-  const float reach = length(light.yzw);
+  const float flux = max(light.x, 0.0), reach = length(light.yzw);
   const vec3 u = reach > 0.0 ? light.yzw / reach : vec3(1.0, 0.0, 0.0);
-  const vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(u, vec3(0.0)));
-  const vec3 size = abs(u);
-  const float sum = size.x + size.y + size.z;
-  const vec2 place = vec2(size.x / max(size.x + size.y, 1e-6), size.z / sum);
+  const vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(u, vec3(0.0))), size = abs(u);
+  const float across = size.x + size.y, level = flux > 0.0 ? min(reach / flux, 1.0) * float(kShareLevels - 1) : 0.0;
   const int axis = face >> 1, block = 2 * axis + (((face & 1) == 0) == (side[axis] > 0.0) ? 0 : 1);
-  const float level = min(reach / light.x, 1.0) * float(kShareLevels - 1);
-  const float low = min(floor(level), float(kShareLevels - 2));
-  const vec2 scale = 1.0 / vec2(kShareSide, kShareSide * kShareLevels * 6);
-  vec2 at = place * float(kShareSide - 1) + 0.5;
-  at.y += float(kShareSide) * (float(block * kShareLevels) + low);
-  const vec4 share = mix(textureLod(shareTable, at * scale, 0.0), textureLod(shareTable, (at + vec2(0.0, kShareSide)) * scale, 0.0),
-                         level - low);
-  return light.x * vec4(share.x, side * share.yzw);
+  const vec3 at = vec3(float(kShareSide - 1) * vec2(size.x / max(across, 1e-6), size.z / (across + size.z)),
+                       level + float(block * kShareLevels)) + 0.5;
+  const vec4 share = textureLod(shareTable, at / vec3(kShareSide, kShareSide, kShareLevels * 6), 0.0);
+  return flux * vec4(share.x, side * share.yzw);
 }
 #elif TRANSPORT == TRANSPORT_FACES
 // Intensity, without the factor 1 / 4 pi.

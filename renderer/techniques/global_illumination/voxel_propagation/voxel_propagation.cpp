@@ -8,7 +8,8 @@
 //   propagation volumes, turn what passes a face into a lobe about one of six axes at each step, so that
 //   light is scattered in empty space; it stays near its source, and the picture is farther from the truth
 //   than one without indirect light.
-// - Sources last (`sources: steady`), so that what arrives need not be summed over steps, and the light of
+// - Sources last (`steps: {sources: steady}`), so that what arrives need not be summed over steps, and the
+// light of
 //   one frame is where that of the next begins.
 // - Light is put in by samples of the surfaces with their areas and a ray to the lamp, in place of fragments
 //   of voxels and a shadow map, into the empty voxel in front.
@@ -18,14 +19,12 @@
 // a
 //   thin wall would else have the light of its other side.
 // - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <optional>
 
-#include "renderer/frame/g_buffer.h"
+#include "renderer/techniques/frames_before.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
-#include "renderer/techniques/global_illumination/surface_light.h"
+#include "renderer/techniques/global_illumination/indirect_picture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
 #include "renderer/techniques/technique.h"
 
@@ -71,12 +70,14 @@ struct ReconstructionSettings {
 struct VoxelPropagationSettings {
   LightGridSettings grid;
   ReconstructionSettings reconstruction;
+  FramesBefore before;
   frame::SurfaceLightSettings surfaces;
   static const SettingsTable<VoxelPropagationSettings>& table() {
     using S = VoxelPropagationSettings;
     static const SettingsTable<S> kTable = {
         included(&S::grid),
         {&S::reconstruction, "reconstruction", "How pixels get light from voxels"},
+        {&S::before, "before", "Frames before the first picture"},
         included(&S::surfaces)};
     return kTable;
   }
@@ -89,32 +90,24 @@ class VoxelPropagation : public Technique {
 
   void prepare(frame::Frame& frame) override {
     light_.emplace(frame, settings_.grid, settings_.surfaces);
-    gl::ShaderDefines defines = surfaceLightDefines(settings_.surfaces, frame);
-    defines.merge(light_->volume().defines());
+    gl::ShaderDefines defines = light_->volume().defines();
     defineEnum(defines, "GATHER", settings_.reconstruction.from);
     defineEnum(defines, "INTERPOLATION", settings_.reconstruction.weights);
-    reconstruct_ = &frame.context().programs().compute(
-        "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl", defines);
-    picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    frame.passes().setBytesHeld(kVoxelReconstructPass, picture_->bytes());
+    picture_.emplace(frame, "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
+                     defines, settings_.surfaces, kVoxelReconstructPass);
+    settings_.before.renderAll(frame, [this](frame::Frame& before) { light_->update(before); });
   }
 
   void render(frame::Frame& frame) override {
-    const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
     light_->update(frame);
-    const auto scope = frame.passes().open(kVoxelReconstructPass);
-    configureSurfaceLight(*reconstruct_, frame, settings_.surfaces);
-    light_->volume().configure(*reconstruct_);
-    reconstruct_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
-    reconstruct_->set("withIndirect", settings_.surfaces.light != frame::LightPart::Direct ? 1 : 0);
-    ids.bindTexture(kReconstructIdsUnit);
-    light_->arrived().bindTexture(kReconstructArrivedUnit);
-    picture_->bindImage(kReconstructOutImage, gl::Access::Write);
-    reconstruct_->dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    picture_->render(frame, [&](const gl::Program& program) {
+      light_->volume().configure(program);
+      light_->arrived().bindTexture(kReconstructArrivedUnit);
+      light_->lightCells().bindTexture(kLightCellsUnit);
+    });
   }
 
-  const gl::Texture& product() const override { return *picture_; }
+  const gl::Texture& product() const override { return picture_->texture(); }
 
   std::vector<Counter> count(frame::Frame& frame) override {
     const auto meanFlux = [&] {
@@ -125,7 +118,7 @@ class VoxelPropagation : public Technique {
     const double injected = meanFlux();
     double before = injected, largest = 0.0, last = 0.0;
     for (int step = 0; step < settings_.grid.iterations; ++step) {
-      light_->propagate(false);
+      light_->propagate();
       const double after = meanFlux();
       last = before > 0.0 ? after / before : 0.0;
       largest = std::max(largest, last);
@@ -143,13 +136,12 @@ class VoxelPropagation : public Technique {
  private:
   Settings settings_;
   std::optional<LightGrid> light_;
-  const gl::Program* reconstruct_ = nullptr;
-  std::optional<gl::Texture> picture_;
+  std::optional<IndirectPicture> picture_;
 };
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
     {.name = "global_illumination/voxel_propagation",
-     .version = 1,
+     .version = 2,
      .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
      .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
      .product = ProductKind::Colour,

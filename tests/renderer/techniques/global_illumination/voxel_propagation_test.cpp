@@ -7,65 +7,12 @@
 #include "renderer/references/counter_random.h"
 #include "renderer/references/triangle_tree.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
-#include "tests/renderer/techniques/technique_fixture.h"
+#include "tests/renderer/techniques/global_illumination/indirect_light_fixture.h"
 
 namespace limen::techniques {
 namespace {
 
-constexpr const char* kPropagation = "global_illumination/voxel_propagation";
-
-class VoxelPropagationLight : public TechniqueTest {
- protected:
-  static Rendered indirect(const scene::Scene& scene, Given given, bool counting = false,
-                           const char* technique = kPropagation) {
-    given["light"] = std::string("indirect");
-    if (std::string(technique) == kPropagation) given.emplace("resolution", int64_t{16});
-    return render(scene, technique, given, {32, 24}, counting);
-  }
-
-  static Image truth(const scene::Scene& scene) {
-    return render(scene, "global_illumination/path_reference",
-                  {{"paths", int64_t{64}}, {"bounces", int64_t{8}}, {"light", std::string("indirect")}},
-                  {32, 24})
-        .product;
-  }
-
-  /// Root mean square over rows before `end`.
-  static double error(const Image& a, const Image& b, int end = 24) {
-    double sum = 0.0;
-    for (int y = 0; y < end; ++y)
-      for (int x = 0; x < a.width; ++x)
-        for (int c = 0; c < 3; ++c) sum += std::pow(double(a.at(x, y, c)) - b.at(x, y, c), 2.0);
-    return std::sqrt(sum / (3.0 * a.width * end));
-  }
-
-  /// Of the channels' means, over columns from `first` to before `end`.
-  static double meanOf(const Image& picture, int first, int end) {
-    double sum = 0.0;
-    for (int y = 0; y < picture.height; ++y)
-      for (int x = first; x < end; ++x)
-        for (int c = 0; c < 3; ++c) sum += picture.at(x, y, c) / 3.0;
-    return sum / (double(picture.height) * (end - first));
-  }
-
-  /// Products of `frames` frames, one after another.
-  static std::vector<Image> pictures(const scene::Scene& scene, Given given, int frames) {
-    given["light"] = std::string("indirect");
-    const TechniqueInfo& info = TechniqueRegistry::instance().get(kPropagation);
-    const frame::GpuScene gpuScene(scene);
-    frame::Frame frame(context(), scene, gpuScene, {32, 24});
-    const auto made = info.make(ParameterValues(info.parameters, given));
-    made->prepare(frame);
-    std::vector<Image> out;
-    for (int i = 0; i < frames; ++i) {
-      frame.begin();
-      made->render(frame);
-      out.push_back(made->product().read());
-      frame.end();
-    }
-    return out;
-  }
-};
+class VoxelPropagationLight : public IndirectLightTest {};
 
 /// The flux of a surface of radiance e and area A is pi e A. Areas of samples sum to the surface's, which
 /// leaves the rounding of fixed-point sums, half a unit of 2^-16 of more than one unit for each sample, and
@@ -162,14 +109,14 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
          {LightTransport(MomentTransport{}), LightTransport(FaceTransport{})}) {
       LightGridSettings settings;
       settings.resolution = 12, settings.reflection = reflection, settings.transport = transport;
-      settings.sources = LightSources::Once, settings.format = FieldFormat::Single;
+      settings.steps.sources = LightSources::Once, settings.format = FieldFormat::Single;
       const frame::GpuScene gpuScene(box);
       frame::Frame frame(context(), box, gpuScene, {8, 8});
       LightGrid grid(frame, settings, {});
       frame.begin();
       grid.start(frame);
       const double before = grid.flux().g;
-      for (int step = 0; step < 256; ++step) grid.arrive(step == 0), grid.propagate(false);
+      for (int step = 0; step < 256; ++step) grid.arrive(step == 0), grid.propagate();
       EXPECT_LT(grid.flux().g, 1e-3 * before);
       const voxels::VoxelGrid& voxels = grid.volume().grid();
       double arrived = 0.0;
@@ -246,34 +193,68 @@ TEST_F(VoxelPropagationLight, IsNearerToPathsThanItsRivals) {
     const scene::Scene scene = makeScene(each.scene, each.given);
     const Image reference = truth(scene), nothing(32, 24, 4);
     const double found = error(indirect(scene, {}).product, reference);
-    const auto volumes = [&](bool blockers) {
-      return error(indirect(scene, {{"resolution", int64_t{16}}, {"blockers", blockers}}, false,
-                            "global_illumination/light_propagation_volumes")
+    const auto volumes = [&](const char* blockers) {
+      return error(indirect(scene, {{"resolution", int64_t{16}}, {"blockers", std::string(blockers)}}, false,
+                            kPropagationVolumes)
                        .product,
                    reference);
     };
     // At least two fifths of the error of no indirect light are gone.
     EXPECT_LT(found, 0.6 * error(nothing, reference)) << each.scene;
-    EXPECT_LT(found, volumes(false)) << each.scene;
-    EXPECT_LT(found, volumes(true)) << each.scene;
+    EXPECT_LT(found, volumes("none")) << each.scene;
+    EXPECT_LT(found, volumes("fronts")) << each.scene;
   }
 }
 
-/// BL-04. A rival must be worth comparing with: where the lamp lights, light propagation volumes are nearer
-/// to all light than none is, and they do not send more than it, though they know one bounce only: what they
-/// count too often (1.9 times where light comes from all sides) stays below what further bounces add.
-TEST_F(VoxelPropagationLight, PropagationVolumesNeitherMissNorInventTheLamp) {
-  for (const char* name : {"cornell_box", "global_illumination/room"}) {
-    const scene::Scene scene = makeScene(name);
-    const Image reference = truth(scene), nothing(32, 24, 4);
-    for (const int64_t resolution : {16, 32}) {
-      const Image found = indirect(scene, {{"resolution", resolution}}, false,
-                                   "global_illumination/light_propagation_volumes")
-                              .product;
-      EXPECT_LT(error(found, reference), 0.75 * error(nothing, reference)) << name << ", " << resolution;
-      EXPECT_LT(meanOf(found, 0, 32), meanOf(reference, 0, 32)) << name << ", " << resolution;
-    }
-  }
+/// Where a wall that is turned against the grid meets another, the voxel beyond a face may be on the other
+/// wall's far side, where there is no light. A strip of one voxel, 2 of 64 columns, beside the left edge of
+/// the back wall has the reference's colour as the rest of that wall has: within a quarter, twice the error
+/// of either's mean over 64 paths in 14 pixels (.1 each) and the grid's own (.05).
+TEST_F(VoxelPropagationLight, EdgesOfTurnedWallsAreNotLitFromTheirFarSides) {
+  const scene::Scene scene = makeScene("global_illumination/stand_in", {{"turn_deg", 45.0}});
+  const auto colours = [&](const char* technique, Given given) {
+    given["light"] = std::string("indirect");
+    const Image picture = render(scene, technique, given, {64, 48}).product;
+    glm::dvec3 mean(0.0);
+    for (int y = 14; y < 21; ++y)
+      for (int x = 17; x < 19; ++x)
+        for (int c = 0; c < 3; ++c) mean[c] += picture.at(x, y, c) / 14.0;
+    return mean;
+  };
+  const glm::dvec3 reference =
+      colours("global_illumination/path_traced", {{"paths", int64_t{256}}, {"bounces", int64_t{8}}});
+  const glm::dvec3 found = colours(kPropagation, {{"resolution", int64_t{16}}});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], reference[c], 0.25 * reference[c]) << "channel " << c;
+}
+
+/// Several steps of one dispatch are those of as many, in grids of whole groups or not: to the same bits but
+/// for what a compiler makes of the same sums, which is a rounding of the field, 2^-12, where it falls, or
+/// 2^-24 of floats.
+TEST_F(VoxelPropagationLight, StepsTogetherAreStepsOneByOne) {
+  const scene::Scene rooms[] = {makeScene("global_illumination/room"),
+                                makeScene("global_illumination/divided_room", {{"transmittance", 0.5}}),
+                                makeScene("global_illumination/stand_in", {{"turn_deg", 30.0}})};
+  for (const scene::Scene& scene : rooms)
+    for (const char* format : {"16f", "32f"})
+      for (const int64_t iterations : {6, 13}) {
+        const auto of = [&](int64_t together) {
+          return indirect(scene, {{"steps.together", together},
+                                  {"iterations", iterations},
+                                  {"resolution", int64_t{14}},
+                                  {"format", std::string(format)}})
+              .product;
+        };
+        const Image single = of(1);
+        double largest = 0.0;
+        for (const float value : single.data) largest = std::max(largest, double(value));
+        for (const int64_t together : {2, 3}) {
+          const Image found = of(together);
+          for (size_t i = 0; i < found.data.size(); ++i)
+            ASSERT_NEAR(found.data[i], single.data[i],
+                        (std::string(format) == "16f" ? double(iterations) / 4096.0 : 1e-6) * largest)
+                << format << ", " << together << ", " << iterations;
+        }
+      }
 }
 
 /// GI-12. Where nothing moves, what is spread over frames ends as what is made at once. The field tends to
@@ -309,10 +290,10 @@ TEST_F(VoxelPropagationLight, StoppingEarlyLeavesThePicture) {
   const Given steps = {
       {"resolution", int64_t{12}}, {"iterations", int64_t{256}}, {"format", std::string("32f")}};
   Given stopped = steps;
-  stopped["stop_below"] = 1e-4;
+  stopped["steps.stop_below"] = 1e-4;
   const Image a = indirect(scene, steps).product, b = indirect(scene, stopped).product;
   EXPECT_LT(error(a, b), 1e-4);
-  stopped["stop_below"] = 1.0;
+  stopped["steps.stop_below"] = 1.0;
   EXPECT_GT(error(a, indirect(scene, stopped).product), 1e-3);
 }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "renderer/frame/light_paths.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+
+namespace limen::techniques {
+
+/// The picture of a technique whose shader includes indirect_picture.glsl: what each pixel sees, lit by the
+/// lamp, by itself and by what the shader's indirectLight() gathers, as the settings choose.
+class IndirectPicture {
+ public:
+  /// `pass`: under which it is timed; it has to outlive this.
+  IndirectPicture(frame::Frame& frame, const std::string& shader, const gl::ShaderDefines& defines,
+                  const frame::SurfaceLightSettings& lighting, const char* pass);
+
+  /// `configure` sets what indirectLight() needs.
+  void render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure) const;
+  const gl::Texture& texture() const { return picture_; }
+
+ private:
+  const gl::Program& program_;
+  frame::SurfaceLightSettings lighting_;
+  const char* pass_;
+  gl::Texture picture_;
+};
+
+}  // namespace limen::techniques
