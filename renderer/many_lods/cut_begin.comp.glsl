@@ -9,8 +9,12 @@ uniform uint regions;  // of the list: 2, or 3 where entries that are left over 
 
 void main() {
 #ifdef RESTART
-  for (uint i = gl_GlobalInvocationID.x; i < viewCount; i += gl_NumWorkGroups.x * uint(kCutGroup))
+  for (uint i = gl_GlobalInvocationID.x; i < viewCount; i += gl_NumWorkGroups.x * uint(kCutGroup)) {
     list[i] = uvec2(kRootNode, i);
+#ifdef MARGINS
+    margins[i] = 0u;
+#endif
+  }
 #endif
   if (gl_WorkGroupID.x > 0u) return;
   const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);

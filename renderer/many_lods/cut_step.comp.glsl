@@ -47,11 +47,12 @@ void main() {
   uint budget = capacity - finished - count;
   budget -= budget % splitsEach;
   for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
-    const uint first = tile * uint(kCutTile) + me;
+    // Entries of an invocation follow each other, so that a tile keeps its order.
+    const uint first = tile * uint(kCutTile) + me * uint(kCutRows);
     uint codes[kCutRows];
     uvec2 own = uvec2(0u);
     for (int row = 0; row < kCutRows; ++row) {
-      const uint index = first + uint(row * kCutGroup);
+      const uint index = first + uint(row);
       codes[row] = kCodeDropped;
       if (index >= count) continue;
       codes[row] = codeOf(at, index, count);
@@ -88,7 +89,7 @@ void main() {
     for (int row = 0; row < kCutRows; ++row) {
       const uint code = codes[row];
       if (code == kCodeDropped) continue;
-      const uvec2 entry = list[at + first + uint(row * kCutGroup)];
+      const uvec2 entry = list[at + first + uint(row)];
       const uint view = entry.y & ~kEntryDone;
       const uint splits = (code & kCodeSplit) != 0u ? code : 0u;
       uint to = finishedAt + finishedBase + so.x + min(so.y, granted) - (full ? 0u : so.z), leftTo = leftAt + leftBase + so.z;
@@ -96,6 +97,9 @@ void main() {
       so += uvec3(1u, bitCount(splits), leftOver(code, entry.x, splitLevels));
       if (splits == 0u) {
         list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view);
+#ifdef MARGINS
+        margins[to] = margins[at + first + uint(row)];
+#endif
         continue;
       }
       const uint kept = within(splits, room);
@@ -107,10 +111,11 @@ void main() {
           continue;
         }
         const uvec2 made = uvec2(nodeBelow(entry.x, place), view);
-        if (goesOn && place >= 1u << splitLevels)
-          list[leftTo++] = made;
-        else
-          list[to++] = made;
+        const uint there = goesOn && place >= 1u << splitLevels ? leftTo++ : to++;
+        list[there] = made;
+#ifdef MARGINS
+        margins[there] = 0u;
+#endif
         while ((place & 1u) != 0u) place >>= 1u;
         if (place != 0u) ++place;
       }

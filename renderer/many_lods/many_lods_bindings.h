@@ -34,6 +34,22 @@ static_assert(sizeof(CutView) == 80);
 const uint kViewHemisphere = 0u;  // stereographic: all directions in front fill the disc in the tile
 const uint kViewPerspective = 1u;
 
+// A view as it was when cuts were last found, and how far the tree had travelled then.
+struct LastView {  // std430
+  CutView view;
+  double centres, radii;
+};
+// How far a tree's nodes have moved since it was made: the sum over its updates of the farthest that a centre went, and of the most by
+// which a radius changed; and both of the update that is going on, as bits.
+struct TreeTravel {  // std430
+  double centres, radii;
+  uint centreNow, radiusNow;
+  uint unused0, unused1;
+};
+#ifdef __cplusplus
+static_assert(sizeof(LastView) == 96 && sizeof(TreeTravel) == 32);
+#endif
+
 // Lists of cuts: x: node, y: view and this flag: nothing is left to do in this frame.
 const uint kEntryDone = 0x80000000u;
 
@@ -99,6 +115,11 @@ const uint kCutCodesBuffer = 3u;
 const uint kCutTilesBuffer = 4u;
 const uint kCutControlBuffer = 5u;
 const uint kCutLinksBuffer = 6u;
+// Of entries that are not tested while nothing has moved too far; not with links.
+const uint kCutMotionsBuffer = 6u;
+const uint kCutMarginsBuffer = 7u;
+const uint kMotionLastViewsBuffer = 3u;
+const uint kMotionTravelBuffer = 4u;
 // Triangle of the sample of an inner node, where samples are those of all nodes.
 const uint kNoTriangle = 0xffffffffu;
 
@@ -121,6 +142,7 @@ const uint kUpdateIndicesBuffer = 1u;
 const uint kUpdatePointsBuffer = 2u;
 const uint kUpdateNodesBuffer = 3u;
 const uint kUpdateConesBuffer = 4u;
+const uint kUpdateTravelBuffer = 5u;
 
 // Atlas of views: tile after tile, row after row. Nodes, views, list and control as above.
 const int kSplatGroup = 256;
