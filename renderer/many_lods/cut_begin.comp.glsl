@@ -5,6 +5,7 @@
 layout(local_size_x = kCutGroup) in;
 
 uniform uint viewCount;
+uniform uint tile;     // entries of a group
 uniform uint regions;  // of the list: 2, or 3 where entries that are left over lie apart
 
 void main() {
@@ -30,7 +31,7 @@ void main() {
   control.tests = 0u;
   control.merges = 0u;
   CutStep first = none;
-  first.classifyX = groupsFor(control.count, uint(kCutTile));
+  first.classifyX = groupsFor(control.count, tile);
   first.classifyY = first.classifyZ = 1u;
   first.scanX = first.scanY = first.scanZ = 1u;
   first.readAt = control.readAt;

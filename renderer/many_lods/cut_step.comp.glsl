@@ -35,7 +35,7 @@ void finishStep(uint count, uint finished, uint budget) {
   steps[next].finishedAt = steps[step_].finishedAt;
   steps[next].finished = finished + made;
   steps[next].count = left;
-  steps[next].classifyX = groupsFor(left, uint(kCutTile));
+  steps[next].classifyX = groupsFor(left, uint(kStepTile));
   steps[next].classifyY = steps[next].classifyZ = 1u;
 }
 
@@ -46,12 +46,12 @@ void main() {
   // As if nothing were dropped: what is dropped is known when all is done.
   uint budget = capacity - finished - count;
   budget -= budget % splitsEach;
-  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
+  for (uint tile = gl_WorkGroupID.x; tile * uint(kStepTile) < count; tile += gl_NumWorkGroups.x) {
     // Entries of an invocation follow each other, so that a tile keeps its order.
-    const uint first = tile * uint(kCutTile) + me * uint(kCutRows);
-    uint codes[kCutRows];
+    const uint first = tile * uint(kStepTile) + me * uint(kStepRows);
+    uint codes[kStepRows];
     uvec2 own = uvec2(0u);
-    for (int row = 0; row < kCutRows; ++row) {
+    for (int row = 0; row < kStepRows; ++row) {
       const uint index = first + uint(row);
       codes[row] = kCodeDropped;
       if (index >= count) continue;
@@ -86,7 +86,7 @@ void main() {
     const bool full = granted < line[kCutGroup - 1].x >> 16u;
     const uvec2 before = line[me] - own;
     uvec3 so = uvec3(before.x & 0xffffu, before.x >> 16u, before.y);
-    for (int row = 0; row < kCutRows; ++row) {
+    for (int row = 0; row < kStepRows; ++row) {
       const uint code = codes[row];
       if (code == kCodeDropped) continue;
       const uvec2 entry = list[at + first + uint(row)];
