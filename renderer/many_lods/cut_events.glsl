@@ -88,7 +88,11 @@ uint codeOf(uint at, uint index, uint count) {
 #if RULE == 0
   return valid(node, view) ? 0u : splitsBelow(node, view);
 #elif RULE == 1
+#ifdef SPLITS_LATER
+  if (!valid(node, view)) return kCodeOpen;
+#else
   if (!valid(node, view)) return splitsBelow(node, view);
+#endif
   // All below a valid ancestor climb; the first of them on the way down arrives.
   uint up = 0u, above = node;
   while (above != kRootNode) {

@@ -29,8 +29,8 @@ struct IncrementalCuts {
   static constexpr const char *kKind = "incremental", *kSummary = "from the last frame's cut, to the end";
   int arity = 2;
   int stepLevels = 3;
-  CutOrder order = CutOrder::Kept;  ///< lists that stay in order are drawn faster
-  bool margins = true;              ///< ListedCuts; of trees whose shape() knows how far they move
+  CutOrder order = CutOrder::Free;
+  bool margins = false;  ///< ListedCuts; of trees whose shape() knows how far they move
   static const SettingsTable<IncrementalCuts>& table();
 };
 /// From the cut of the frame before, by a few edges of the tree.

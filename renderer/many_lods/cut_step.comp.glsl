@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A whole step in one dispatch: groups say what becomes of their entries and take room for it where the list goes on, in the order in
-// which they come. The last one has the next step dispatched. RULE, LINKED: cut_events.glsl.
+// which they come. The last one has the next step dispatched. RULE, LINKED: cut_events.glsl. SPLITS_LATER: what has to be split is left over, so that a step over a long
+// list of which little changes is a light one.
 #include "renderer/many_lods/many_lods_bindings.h"
 
 layout(local_size_x = kCutGroup) in;
@@ -17,6 +18,9 @@ shared uint finishedBase, leftBase, granted;
 
 // Kept and split, 16 bits each, and left over.
 uvec2 packedSums(uint code, uint node) {
+#ifdef SPLITS_LATER
+  return uvec2(code == kCodeDropped ? 0u : 1u, code == kCodeOpen ? 1u : 0u);
+#endif
   return uvec2((code == kCodeDropped ? 0u : 1u) | splitsOf(code) << 16u, leftOver(code, node, splitLevels));
 }
 
@@ -91,6 +95,16 @@ void main() {
       if (code == kCodeDropped) continue;
       const uvec2 entry = list[at + first + uint(row)];
       const uint view = entry.y & ~kEntryDone;
+#ifdef SPLITS_LATER
+      const bool isOpen = code == kCodeOpen;
+      const uint place = isOpen ? leftAt + leftBase + so.z : finishedAt + finishedBase + so.x - so.z;
+      list[place] = isOpen ? uvec2(entry.x, view) : uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view);
+#ifdef MARGINS
+      margins[place] = isOpen ? 0u : margins[at + first + uint(row)];
+#endif
+      so += uvec3(1u, 0u, isOpen ? 1u : 0u);
+      continue;
+#else
       const uint splits = (code & kCodeSplit) != 0u ? code : 0u;
       uint to = finishedAt + finishedBase + so.x + min(so.y, granted) - (full ? 0u : so.z), leftTo = leftAt + leftBase + so.z;
       const uint room = granted - min(granted, so.y);
@@ -119,6 +133,7 @@ void main() {
         while ((place & 1u) != 0u) place >>= 1u;
         if (place != 0u) ++place;
       }
+#endif
     }
     barrier();
   }

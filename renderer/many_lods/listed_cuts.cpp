@@ -103,6 +103,7 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       gl::ShaderDefines own = defines;
       own["RULE"] = std::to_string(rule);
       if (counting) own["COUNTING"] = "1";
+      if (free_ && rule == kRuleClimb) own["SPLITS_LATER"] = "1";
       classify_.push_back(
           &cache.compute(folder + (free_ ? "cut_step.comp.glsl" : "cut_classify.comp.glsl"), own));
     }
@@ -193,8 +194,9 @@ void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool c
     const uint32_t rule = std::holds_alternative<LazyCuts>(mode_) ? kRuleOneEdge : kRuleLiteral;
     for (uint32_t i = 0; i < edges; ++i) step(rule, i, edges - 1, counting);
   } else {
-    for (uint32_t i = 0; i < fullSteps_; ++i)
-      step(i == 0 && !fromRoot ? kRuleClimb : kRuleSplit, i, fullSteps_ - 1, counting);
+    const uint32_t steps = fullSteps_ + (free_ && !fromRoot ? 1U : 0U);
+    for (uint32_t i = 0; i < steps; ++i)
+      step(i == 0 && !fromRoot ? kRuleClimb : kRuleSplit, i, steps - 1, counting);
   }
   end();
 }

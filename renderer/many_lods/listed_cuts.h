@@ -24,7 +24,8 @@ gl::Buffer cutStorage(int64_t bytes);
 /// frame is copied once, however deep a few of its entries go down. It is in order of views where no step
 /// after the first had anything to do.
 ///
-/// Incremental cuts with margins: beside each entry stands how far eye and surface may move before a test of
+/// The first step of incremental cuts of free order keeps, merges and drops, and leaves over what has to be
+/// split. With margins, beside each entry stands how far eye and surface may move before a test of
 /// it or of its parent can come out otherwise. While that lasts it is kept without a look at the tree.
 ///
 /// Lazy cuts need siblings beside each other: their list is kept in order, by view and then from left to

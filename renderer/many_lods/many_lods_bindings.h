@@ -59,6 +59,7 @@ const uint kEntryDone = 0x80000000u;
 const uint kCodeSplit = 1u;
 const uint kCodeClimbShift = 8u;
 const uint kCodeDropped = 0x80000000u;
+const uint kCodeOpen = 0x40000000u;  // it is left over for the next step as it is
 const int kMostSplitLevels = 5;
 
 // Cuts by geometry shaders.

@@ -63,7 +63,7 @@ TEST_F(CutMargins, CutsEqualTheRecursionHoweverEyesMoveAndTurn) {
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
   for (const CutOrder order : {CutOrder::Free, CutOrder::Kept}) {
-    MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.order = order});
+    MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.order = order, .margins = true});
     std::mt19937 random(11);
     std::vector<CutView> views = anyViews(1, tree);
     // From far below what rounding leaves certain to anything.
@@ -81,7 +81,7 @@ TEST_F(CutMargins, CutsEqualTheRecursionAsTheTreeMoves) {
   const gl::Buffer indices(of.triangles);
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), true);
-  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{});
+  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.margins = true});
   std::mt19937 random(12);
   std::vector<CutView> views = anyViews(2, tree);
   double phase = 0.0;
@@ -105,7 +105,7 @@ TEST_F(CutMargins, HardlyAnythingIsTestedWhereNothingMoves) {
   const SphereTree tree = treeOf(bumpyBalls(), kDepth);
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
-  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{});
+  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.margins = true});
   const gl::Buffer views(anyViews(3, tree));
   for (int frame = 0; frame < 3; ++frame) cut.update(onGpu.nodes(), views, true);
   EXPECT_LT(cut.control().tests, cut.control().count / 1000);
@@ -117,7 +117,7 @@ TEST_F(CutMargins, ATenthOfTheTestsIsLeftUnderSmallMotion) {
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
   MultiCut basic(context(), kViews, onGpu.shape(), 1U << 18, BasicCuts{}),
-      cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{});
+      cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.margins = true});
   std::mt19937 random(13);
   std::vector<CutView> views = anyViews(4, tree);
   uint64_t from = 0, tests = 0;
@@ -138,7 +138,7 @@ TEST_F(CutMargins, CutsEqualTheRecursionAsViewsChangeTheirSize) {
   const SphereTree tree = treeOf(bumpyBalls(), kDepth);
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
-  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{});
+  MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.margins = true});
   std::vector<CutView> views = anyViews(5, tree);
   for (int frame = 0; frame < 6; ++frame) {
     for (uint32_t i = 0; i < kViews; i += 3) {
@@ -159,7 +159,7 @@ TEST_F(CutMargins, OverfullListsLoseNothing) {
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
   for (const CutOrder order : {CutOrder::Free, CutOrder::Kept}) {
-    MultiCut cut(context(), kViews, onGpu.shape(), 8000, IncrementalCuts{.order = order});
+    MultiCut cut(context(), kViews, onGpu.shape(), 8000, IncrementalCuts{.order = order, .margins = true});
     std::mt19937 random(14);
     std::vector<CutView> views = anyViews(6, tree);
     for (int frame = 0; frame < 6; ++frame) {
