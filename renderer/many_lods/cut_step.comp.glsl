@@ -13,6 +13,13 @@ layout(std430, binding = kCutViewsBuffer) readonly buffer Views { CutView views[
 uniform uint lastStep;    // steps end here even if entries are left over
 uniform uint splitsEach;  // of a node by one level of the tree; rooms are used up in these
 
+#ifdef SPLITS_LATER
+const int kRows = kKeepRows;
+#else
+const int kRows = kSplitRows;
+#endif
+const int kTile = kCutGroup * kRows;
+
 shared uvec2 line[kCutGroup];
 shared uint finishedBase, leftBase, granted;
 
@@ -39,7 +46,7 @@ void finishStep(uint count, uint finished, uint budget) {
   steps[next].finishedAt = steps[step_].finishedAt;
   steps[next].finished = finished + made;
   steps[next].count = left;
-  steps[next].classifyX = groupsFor(left, uint(kStepTile));
+  steps[next].classifyX = groupsFor(left, uint(kCutGroup * kSplitRows));
   steps[next].classifyY = steps[next].classifyZ = 1u;
 }
 
@@ -50,12 +57,12 @@ void main() {
   // As if nothing were dropped: what is dropped is known when all is done.
   uint budget = capacity - finished - count;
   budget -= budget % splitsEach;
-  for (uint tile = gl_WorkGroupID.x; tile * uint(kStepTile) < count; tile += gl_NumWorkGroups.x) {
+  for (uint tile = gl_WorkGroupID.x; tile * uint(kTile) < count; tile += gl_NumWorkGroups.x) {
     // Entries of an invocation follow each other, so that a tile keeps its order.
-    const uint first = tile * uint(kStepTile) + me * uint(kStepRows);
-    uint codes[kStepRows];
+    const uint first = tile * uint(kTile) + me * uint(kRows);
+    uint codes[kRows];
     uvec2 own = uvec2(0u);
-    for (int row = 0; row < kStepRows; ++row) {
+    for (int row = 0; row < kRows; ++row) {
       const uint index = first + uint(row);
       codes[row] = kCodeDropped;
       if (index >= count) continue;
@@ -90,7 +97,7 @@ void main() {
     const bool full = granted < line[kCutGroup - 1].x >> 16u;
     const uvec2 before = line[me] - own;
     uvec3 so = uvec3(before.x & 0xffffu, before.x >> 16u, before.y);
-    for (int row = 0; row < kStepRows; ++row) {
+    for (int row = 0; row < kRows; ++row) {
       const uint code = codes[row];
       if (code == kCodeDropped) continue;
       const uvec2 entry = list[at + first + uint(row)];

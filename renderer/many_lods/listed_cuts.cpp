@@ -174,7 +174,8 @@ void ListedCuts::begin(const gl::Buffer& nodes, const gl::Buffer& views, bool fr
   const gl::Program& program = fromRoot ? *restart_ : *begin_;
   program.set("viewCount", viewCount_);
   program.set("regions", ordered_ ? 2U : 3U);
-  program.set("tile", static_cast<uint32_t>(free_ ? kStepTile : kCutTile));
+  const int rows = !free_ ? kCutRows : fromRoot ? kSplitRows : kKeepRows;
+  program.set("tile", static_cast<uint32_t>(kCutGroup * rows));
   setShape(program);
   program.use();
   const uint32_t groups = fromRoot ? (viewCount_ + kCutGroup - 1) / kCutGroup : 1U;

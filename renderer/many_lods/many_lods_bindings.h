@@ -69,9 +69,10 @@ const uint kFeedbackViewsUnit = 1u;
 const int kCutGroup = 256;
 const int kCutRows = 4;  // entries of an invocation
 const int kCutTile = kCutGroup * kCutRows;
-// Of steps in one dispatch: with two an invocation, a fifth faster than with four (H200), whose registers leave fewer groups at work.
-const int kStepRows = 2;
-const int kStepTile = kCutGroup * kStepRows;
+// Entries of an invocation in steps in one dispatch: fewer leave registers for more groups; where entries are only kept or left over,
+// two share a parent's test.
+const int kSplitRows = 1;
+const int kKeepRows = 2;
 const int kMostCutGroups = 16384;  // of a dispatch; groups take several tiles
 const int kMostCutSteps = 64;
 const int kCutScanGroup = 256;
@@ -150,7 +151,7 @@ const uint kUpdateTravelBuffer = 5u;
 
 // Atlas of views: tile after tile, row after row. Nodes, views, list and control as above.
 const int kSplatGroup = 256;
-const int kSmallSplatPx = 64;  // boxes of more pixels are drawn by the whole group
+const int kSmallSplatPx = 16;  // boxes of more pixels are drawn by the whole group
 const uint kSplatDepthsBuffer = 3u;
 const uint kSplatWinnersBuffer = 4u;
 const uint kSplatColoursBuffer = 6u;
