@@ -63,7 +63,8 @@ TEST_F(CutMargins, CutsEqualTheRecursionHoweverEyesMoveAndTurn) {
   GpuTree onGpu(context(), tree);
   onGpu.keepTravel(context(), false);
   for (const CutOrder order : {CutOrder::Free, CutOrder::Kept}) {
-    MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18, IncrementalCuts{.order = order, .margins = true});
+    MultiCut cut(context(), kViews, onGpu.shape(), 1U << 18,
+                 IncrementalCuts{.order = order, .margins = true});
     std::mt19937 random(11);
     std::vector<CutView> views = anyViews(1, tree);
     // From far below what rounding leaves certain to anything.

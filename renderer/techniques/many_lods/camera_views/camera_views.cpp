@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several views of one camera, fed to the same cuts (experimental): a stereo pair, samples of a lens, samples
-// of the time that a shutter is open. The scene stands still meanwhile. Views are drawn from cuts of a tree of
-// points, or for comparison by rays. Source: Holländer 2013, section 6.2 (views of these kinds, in words);
+// of the time that a shutter is open. The scene stands still meanwhile. Views are drawn from cuts of a tree
+// of points, or for comparison by rays. Source: Holländer 2013, section 6.2 (views of these kinds, in words);
 // everything else is the bench's own.
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "renderer/frame/mirror_trace.h"
 #include "renderer/many_lods/node_predicate.h"
@@ -76,7 +78,7 @@ struct ShutterSamples {
 };
 struct SeenPoints {
   static constexpr const char *kKind = "cuts", *kSummary = "from cuts of a tree of points";
-  TreeSettings tree{.discs = many_lods::Discs::Spheres};
+  TreeSettings tree;
   many_lods::CutMode cuts;
   CutLimits limits{1.0, 65536};
   static const SettingsTable<SeenPoints>& table() {

@@ -53,10 +53,9 @@ TEST_F(CameraViewPictures, ShuttersAreMeansOverCameras) {
   const scene::Scene scene = makeScene("sphere_grid");
   const scene::Camera camera = cameraOf(scene);
   constexpr int kTimes = 8;
-  const Image rays = seen(scene, "rays",
-                          {{"views", std::string("shutter")},
-                           {"views.turn", 12.0},
-                           {"views.samples", int64_t{kTimes}}});
+  const Image rays =
+      seen(scene, "rays",
+           {{"views", std::string("shutter")}, {"views.turn", 12.0}, {"views.samples", int64_t{kTimes}}});
   Image mean(kSize.x, kSize.y, 4);
   const glm::dvec3 up = glm::normalize(camera.up), from = camera.eye - camera.target;
   for (int i = 0; i < kTimes; ++i) {
@@ -70,8 +69,8 @@ TEST_F(CameraViewPictures, ShuttersAreMeansOverCameras) {
   EXPECT_GT(meanDifference(drawn(scene, camera.eye, camera.target, kSize), mean), 5e-3);
 }
 
-// A lens blurs a point at distance d by its radius times |1 / d - 1 / focus| on a plane at distance 1: what is
-// in focus is as sharp as through a pinhole, and all else is less sharp the farther it is from there.
+// A lens blurs a point at distance d by its radius times |1 / d - 1 / focus| on a plane at distance 1: what
+// is in focus is as sharp as through a pinhole, and all else is less sharp the farther it is from there.
 TEST_F(CameraViewPictures, LensesAreSharpInTheirPlaneAlone) {
   // A large triangle with its edge through the middle of the picture, facing the camera.
   scene::Scene scene = makeScene("sphere_grid");

@@ -164,7 +164,8 @@ TEST_F(GatheredRays, NaturalLightComesToThatOfRays) {
 }
 
 // What references are worth: means of independent rays, whose error falls with the root of their number. Two
-// sets of rays differ by the root of 2 of it, or less if they are spread evenly; of 256 pixels' sum of squares 30 % is four deviations and more.
+// sets of rays differ by the root of 2 of it, or less if they are spread evenly; of 256 pixels' sum of
+// squares 30 % is four deviations and more.
 TEST_F(GatheredRays, ErrorsFallWithTheRootOfTheRays) {
   const scene::Scene scene = makeScene("cornell_box");
   const auto square = [&](int64_t rays) {
