@@ -5,12 +5,17 @@
 layout(local_size_x = kCutGroup) in;
 
 uniform uint viewCount;
+uniform uint tile;     // entries of a group
 uniform uint regions;  // of the list: 2, or 3 where entries that are left over lie apart
 
 void main() {
 #ifdef RESTART
-  for (uint i = gl_GlobalInvocationID.x; i < viewCount; i += gl_NumWorkGroups.x * uint(kCutGroup))
+  for (uint i = gl_GlobalInvocationID.x; i < viewCount; i += gl_NumWorkGroups.x * uint(kCutGroup)) {
     list[i] = uvec2(kRootNode, i);
+#ifdef MARGINS
+    margins[i] = 0u;
+#endif
+  }
 #endif
   if (gl_WorkGroupID.x > 0u) return;
   const CutStep none = CutStep(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
@@ -26,7 +31,7 @@ void main() {
   control.tests = 0u;
   control.merges = 0u;
   CutStep first = none;
-  first.classifyX = groupsFor(control.count, uint(kCutTile));
+  first.classifyX = groupsFor(control.count, tile);
   first.classifyY = first.classifyZ = 1u;
   first.scanX = first.scanY = first.scanZ = 1u;
   first.readAt = control.readAt;

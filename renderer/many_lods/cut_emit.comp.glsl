@@ -54,6 +54,9 @@ void main() {
       at += uvec3(1u, bitCount(splits), left);
       if (splits == 0u) {
         list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view | kEntryDone);
+#ifdef MARGINS
+        margins[to] = margins[now.readAt + first + row];
+#endif
         continue;
       }
       // Parents come before children: what remains of the splits is a subtree.
@@ -66,16 +69,17 @@ void main() {
           continue;
         }
         const uint node = nodeBelow(entry.x, place);
-        if (goesOn && place >= 1u << splitLevels) {
+        const bool open = goesOn && place >= 1u << splitLevels;
 #ifdef ORDERED
-          list[to++] = uvec2(node, view);
+        list[to++] = uvec2(node, open ? view : view | kEntryDone);
 #else
-          if (full) list[to++] = uvec2(node, view | kEntryDone);
-          else list[leftTo++] = uvec2(node, view);
+        const bool apart = open && !full;
+        const uint there = apart ? leftTo++ : to++;
+        list[there] = uvec2(node, apart ? view : view | kEntryDone);
+#ifdef MARGINS
+        margins[there] = 0u;
 #endif
-        } else {
-          list[to++] = uvec2(node, view | kEntryDone);
-        }
+#endif
         while ((place & 1u) != 0u) place >>= 1u;
         if (place != 0u) ++place;
       }

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What becomes of an entry in a step. RULE: one of kRule..., ORDERED: entries may be finished already. LINKED: tree_links.glsl. The
-// including shader has `nodes`, `views` and the list.
+// including shader has `nodes`, `views` and the list. MARGINS: entries that are right are tested again when something has moved by what
+// was left at their last test.
 #include "renderer/many_lods/node_predicate.glsl"
 #include "renderer/many_lods/cut_lists.glsl"
 #include "renderer/many_lods/tree_links.glsl"
+
+#if defined(MARGINS) && RULE == 1
+layout(std430, binding = kCutMotionsBuffer) readonly buffer Motions { vec2 motions[]; };  // of views, cut_motion.comp.glsl
+#endif
 
 uniform uint splitLevels;  // that a step may split at once, up to kMostSplitLevels; a multiple of arityBits
 
@@ -44,28 +49,66 @@ bool allSiblingsAreThere(uint at, uint index, uint count, uvec2 entry) {
 }
 #endif
 
+#if RULE == 1
+// Siblings stand beside each other in a list, and an invocation looks at entries that do: their parent is tested once.
+uint knownParent = 0u, knownView = 0u;
+bool knownValid = false;
+#ifdef MARGINS
+vec2 knownMargins;  // if it is not valid
+#endif
+
+bool isParentValid(uint parent, uint viewNumber, CutView view) {
+  if (parent == knownParent && viewNumber == knownView) return knownValid;
+  knownParent = parent;
+  knownView = viewNumber;
+  knownValid = valid(parent, view);
+#ifdef MARGINS
+  if (!knownValid) knownMargins = marginsOf(nodes[parent], levelsAboveLeaves(parent), view, false);
+#endif
+  return knownValid;
+}
+#endif
+
 uint codeOf(uint at, uint index, uint count) {
   const uvec2 entry = list[at + index];
   const uint node = entry.x;
 #if RULE == 0 && defined(ORDERED)
   if ((entry.y & kEntryDone) != 0u) return 0u;
 #endif
-  const CutView view = views[entry.y & ~kEntryDone];
+  const uint viewNumber = entry.y & ~kEntryDone;
+#if defined(MARGINS) && RULE == 1
+  const vec2 motion = motions[viewNumber];
+  const vec2 rest = unpackedMargins(margins[at + index]) - motion;
+  if (all(greaterThan(rest, vec2(0.0)))) {
+    if (motion.y > 0.0) margins[at + index] = packedMargins(rest);
+    return 0u;
+  }
+#endif
+  const CutView view = views[viewNumber];
 #if RULE == 0
   return valid(node, view) ? 0u : splitsBelow(node, view);
 #elif RULE == 1
+#ifdef SPLITS_LATER
+  if (!valid(node, view)) return kCodeOpen;
+#else
   if (!valid(node, view)) return splitsBelow(node, view);
+#endif
   // All below a valid ancestor climb; the first of them on the way down arrives.
   uint up = 0u, above = node;
   while (above != kRootNode) {
     const uint parent = parentOf(above);
-    if (!valid(parent, view)) break;
+    if (!isParentValid(parent, viewNumber, view)) break;
     if (!isFirstChild(above)) return kCodeDropped;
     above = parent;
     ++up;
   }
 #ifdef COUNTING
   climbed += up;
+#endif
+#ifdef MARGINS
+  vec2 still = isLeaf(above) ? vec2(kNoMargin) : marginsOf(nodes[above], levelsAboveLeaves(above), view, true);
+  if (above != kRootNode) still = min(still, knownMargins);
+  margins[at + index] = packedMargins(still);
 #endif
   return up << kCodeClimbShift;
 #else

@@ -8,6 +8,10 @@ layout(std430, binding = kCutControlBuffer) buffer Control {
   CutStep steps[];
 };
 
+#ifdef MARGINS
+layout(std430, binding = kCutMarginsBuffer) buffer Margins { uint margins[]; };  // of the list's entries
+#endif
+
 uniform uint step_, capacity;
 
 uint groupsFor(uint count, uint each) { return min((count + each - 1u) / each, uint(kMostCutGroups)); }

@@ -11,21 +11,11 @@ namespace {
 
 constexpr const char *kArityText =
                          "Children of a node: of 4 and 8 every second and third level of the tree is one",
-                     *kAritySource = "Holländer 2013, section 3.8";
-
-template <class S>
-const SettingsTable<S>& stepsTable() {
-  static const SettingsTable<S> kTable = {
-      {&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
-      {&S::stepLevels,
-       "step_levels",
-       {1, kMostSplitLevels},
-       "",
-       "Levels of the tree by which an entry is split at once: fewer steps, "
-       "more work for one invocation"},
-      {&S::order, "order", "Order of the list: free in one dispatch a step, or kept, in three"}};
-  return kTable;
-}
+                     *kAritySource = "Holländer 2013, section 3.8",
+                     *kStepLevelsText =
+                         "Levels of the tree by which an entry is split at once: fewer steps, "
+                         "more work for one invocation",
+                     *kOrderText = "Order of the list: free in one dispatch a step, or kept, in three";
 
 template <class S>
 const SettingsTable<S>& edgesTable() {
@@ -53,8 +43,31 @@ int arityBitsOf(const CutMode& mode) {
       mode);
 }
 
-const SettingsTable<BasicCuts>& BasicCuts::table() { return stepsTable<BasicCuts>(); }
-const SettingsTable<IncrementalCuts>& IncrementalCuts::table() { return stepsTable<IncrementalCuts>(); }
+bool wantsTravel(const CutMode& mode) {
+  const auto* incremental = std::get_if<IncrementalCuts>(&mode);
+  return incremental && incremental->margins;
+}
+
+const SettingsTable<BasicCuts>& BasicCuts::table() {
+  using S = BasicCuts;
+  static const SettingsTable<S> kTable = {
+      {&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+      {&S::stepLevels, "step_levels", {1, kMostSplitLevels}, "", kStepLevelsText},
+      {&S::order, "order", kOrderText}};
+  return kTable;
+}
+const SettingsTable<IncrementalCuts>& IncrementalCuts::table() {
+  using S = IncrementalCuts;
+  static const SettingsTable<S> kTable = {
+      {&S::arity, "arity", oneOf({2, 4, 8}), "", kArityText, kAritySource},
+      {&S::stepLevels, "step_levels", {1, kMostSplitLevels}, "", kStepLevelsText},
+      {&S::order, "order", kOrderText},
+      {&S::margins, "margins",
+       "Nodes are tested again only where eye or surface have moved farther than the last test left room "
+       "for; "
+       "the cut is the same. Of complete trees"}};
+  return kTable;
+}
 const SettingsTable<LazyCuts>& LazyCuts::table() { return edgesTable<LazyCuts>(); }
 const SettingsTable<LiteralCuts>& LiteralCuts::table() { return edgesTable<LiteralCuts>(); }
 const SettingsTable<TopOnCpu>& TopOnCpu::table() {

@@ -29,7 +29,8 @@ struct IncrementalCuts {
   static constexpr const char *kKind = "incremental", *kSummary = "from the last frame's cut, to the end";
   int arity = 2;
   int stepLevels = 3;
-  CutOrder order = CutOrder::Kept;  ///< lists that stay in order are drawn faster
+  CutOrder order = CutOrder::Free;
+  bool margins = false;  ///< ListedCuts; of trees whose shape() knows how far they move
   static const SettingsTable<IncrementalCuts>& table();
 };
 /// From the cut of the frame before, by a few edges of the tree.
@@ -89,6 +90,9 @@ struct HybridSettings {
 };
 using CutMode =
     std::variant<IncrementalCuts, LazyCuts, BasicCuts, LiteralCuts, GeometryShaderCuts, HybridSettings>;
+
+/// Whether the mode wants to know how far nodes move (GpuTree::keepTravel()).
+bool wantsTravel(const CutMode& mode);
 
 /// Of the tree as the mode walks it: nodes have 2^arityBitsOf() children. Those of a complete binary tree's
 /// levels between are passed over.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A whole step in one dispatch: groups say what becomes of their entries and take room for it where the list goes on, in the order in
-// which they come. The last one has the next step dispatched. RULE, LINKED: cut_events.glsl.
+// which they come. The last one has the next step dispatched. RULE, LINKED: cut_events.glsl. SPLITS_LATER: what has to be split is left over, so that a step over a long
+// list of which little changes is a light one.
 #include "renderer/many_lods/many_lods_bindings.h"
 
 layout(local_size_x = kCutGroup) in;
@@ -12,11 +13,21 @@ layout(std430, binding = kCutViewsBuffer) readonly buffer Views { CutView views[
 uniform uint lastStep;    // steps end here even if entries are left over
 uniform uint splitsEach;  // of a node by one level of the tree; rooms are used up in these
 
+#ifdef SPLITS_LATER
+const int kRows = kKeepRows;
+#else
+const int kRows = kSplitRows;
+#endif
+const int kTile = kCutGroup * kRows;
+
 shared uvec2 line[kCutGroup];
 shared uint finishedBase, leftBase, granted;
 
 // Kept and split, 16 bits each, and left over.
 uvec2 packedSums(uint code, uint node) {
+#ifdef SPLITS_LATER
+  return uvec2(code == kCodeDropped ? 0u : 1u, code == kCodeOpen ? 1u : 0u);
+#endif
   return uvec2((code == kCodeDropped ? 0u : 1u) | splitsOf(code) << 16u, leftOver(code, node, splitLevels));
 }
 
@@ -35,7 +46,7 @@ void finishStep(uint count, uint finished, uint budget) {
   steps[next].finishedAt = steps[step_].finishedAt;
   steps[next].finished = finished + made;
   steps[next].count = left;
-  steps[next].classifyX = groupsFor(left, uint(kCutTile));
+  steps[next].classifyX = groupsFor(left, uint(kCutGroup * kSplitRows));
   steps[next].classifyY = steps[next].classifyZ = 1u;
 }
 
@@ -46,12 +57,13 @@ void main() {
   // As if nothing were dropped: what is dropped is known when all is done.
   uint budget = capacity - finished - count;
   budget -= budget % splitsEach;
-  for (uint tile = gl_WorkGroupID.x; tile * uint(kCutTile) < count; tile += gl_NumWorkGroups.x) {
-    const uint first = tile * uint(kCutTile) + me;
-    uint codes[kCutRows];
+  for (uint tile = gl_WorkGroupID.x; tile * uint(kTile) < count; tile += gl_NumWorkGroups.x) {
+    // Entries of an invocation follow each other, so that a tile keeps its order.
+    const uint first = tile * uint(kTile) + me * uint(kRows);
+    uint codes[kRows];
     uvec2 own = uvec2(0u);
-    for (int row = 0; row < kCutRows; ++row) {
-      const uint index = first + uint(row * kCutGroup);
+    for (int row = 0; row < kRows; ++row) {
+      const uint index = first + uint(row);
       codes[row] = kCodeDropped;
       if (index >= count) continue;
       codes[row] = codeOf(at, index, count);
@@ -85,17 +97,30 @@ void main() {
     const bool full = granted < line[kCutGroup - 1].x >> 16u;
     const uvec2 before = line[me] - own;
     uvec3 so = uvec3(before.x & 0xffffu, before.x >> 16u, before.y);
-    for (int row = 0; row < kCutRows; ++row) {
+    for (int row = 0; row < kRows; ++row) {
       const uint code = codes[row];
       if (code == kCodeDropped) continue;
-      const uvec2 entry = list[at + first + uint(row * kCutGroup)];
+      const uvec2 entry = list[at + first + uint(row)];
       const uint view = entry.y & ~kEntryDone;
+#ifdef SPLITS_LATER
+      const bool isOpen = code == kCodeOpen;
+      const uint place = isOpen ? leftAt + leftBase + so.z : finishedAt + finishedBase + so.x - so.z;
+      list[place] = isOpen ? uvec2(entry.x, view) : uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view);
+#ifdef MARGINS
+      margins[place] = isOpen ? 0u : margins[at + first + uint(row)];
+#endif
+      so += uvec3(1u, 0u, isOpen ? 1u : 0u);
+      continue;
+#else
       const uint splits = (code & kCodeSplit) != 0u ? code : 0u;
       uint to = finishedAt + finishedBase + so.x + min(so.y, granted) - (full ? 0u : so.z), leftTo = leftAt + leftBase + so.z;
       const uint room = granted - min(granted, so.y);
       so += uvec3(1u, bitCount(splits), leftOver(code, entry.x, splitLevels));
       if (splits == 0u) {
         list[to] = uvec2(ancestorOf(entry.x, code >> kCodeClimbShift), view);
+#ifdef MARGINS
+        margins[to] = margins[at + first + uint(row)];
+#endif
         continue;
       }
       const uint kept = within(splits, room);
@@ -107,13 +132,15 @@ void main() {
           continue;
         }
         const uvec2 made = uvec2(nodeBelow(entry.x, place), view);
-        if (goesOn && place >= 1u << splitLevels)
-          list[leftTo++] = made;
-        else
-          list[to++] = made;
+        const uint there = goesOn && place >= 1u << splitLevels ? leftTo++ : to++;
+        list[there] = made;
+#ifdef MARGINS
+        margins[there] = 0u;
+#endif
         while ((place & 1u) != 0u) place >>= 1u;
         if (place != 0u) ++place;
       }
+#endif
     }
     barrier();
   }

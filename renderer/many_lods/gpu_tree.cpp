@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/many_lods/many_lods_bindings.h"
+
 namespace limen::many_lods {
 
 GpuTree::GpuTree(gl::Context& context, const SphereTree& tree)
@@ -17,6 +19,10 @@ GpuTree::GpuTree(gl::Context& context, const SphereTree& tree)
       cones_(tree.cones),
       samples_(tree.samples) {
   if (!tree.links.empty()) links_.emplace(tree.links);
+  makePrograms(context, false);
+}
+
+void GpuTree::makePrograms(gl::Context& context, bool travel) {
   const std::string path =
       std::string("renderer/many_lods/") + (links_ ? "update_linked_tree" : "update_tree");
   for (const bool leaves : {false, true})
@@ -24,8 +30,15 @@ GpuTree::GpuTree(gl::Context& context, const SphereTree& tree)
       gl::ShaderDefines defines;
       if (leaves) defines["LEAVES"] = "1";
       if (cones) defines["CONES"] = "1";
+      if (travel) defines["TRAVEL"] = "1";
       programs_[leaves][cones] = &context.programs().compute(path + ".comp.glsl", defines);
     }
+}
+
+void GpuTree::keepTravel(gl::Context& context, bool moves) {
+  if (links_) return;
+  travel_.emplace(std::vector<TreeTravel>(1));
+  if (moves) makePrograms(context, true);
 }
 
 void GpuTree::update(const gl::Buffer& positions, const gl::Buffer& indices, bool cones) const {
@@ -34,6 +47,7 @@ void GpuTree::update(const gl::Buffer& positions, const gl::Buffer& indices, boo
   samples_.bindStorage(kUpdatePointsBuffer);
   nodes_.bindStorage(kUpdateNodesBuffer);
   cones_.bindStorage(kUpdateConesBuffer);
+  if (travel_) travel_->bindStorage(kUpdateTravelBuffer);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   if (links_) {
     updateLinked(cones);

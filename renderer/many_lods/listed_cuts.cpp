@@ -30,6 +30,11 @@ bool isFree(const CutMode& mode) {
   return false;
 }
 
+bool hasMargins(const CutMode& mode, const TreeShape& shape) {
+  const auto* incremental = std::get_if<IncrementalCuts>(&mode);
+  return incremental && incremental->margins && shape.travel;
+}
+
 /// A whole number of nodes' levels.
 uint32_t splitLevelsOf(const CutMode& mode) {
   const int arityBits = arityBitsOf(mode);
@@ -60,6 +65,7 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       arityBits_(static_cast<uint32_t>(arityBitsOf(mode))),
       ordered_(edgesOf(mode) > 0),
       free_(isFree(mode)),
+      margins_(hasMargins(mode, shape)),
       splitLevels_(splitLevelsOf(mode)),
       // Leaves of a tree that is not complete are left over as well.
       fullSteps_(std::max((static_cast<uint32_t>(shape.height) + splitLevels_ - 1) / splitLevels_, 1U) +
@@ -67,12 +73,19 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       list_(cutStorage((ordered_ ? 2 : 3) * kListEntryBytes * capacity)),
       codes_(cutStorage(free_ ? 0 : 4 * int64_t{kCutTile} * tilesFor(capacity))),
       tiles_(free_ ? 0 : 16 * int64_t{tilesFor(capacity)}, nullptr),
-      control_(sizeof(CutControl) + kMostCutSteps * int64_t{sizeof(CutStep)}, nullptr) {
+      control_(sizeof(CutControl) + kMostCutSteps * int64_t{sizeof(CutStep)}, nullptr),
+      marginList_(cutStorage(margins_ ? 3 * int64_t{4} * capacity : 0)),
+      lastViews_(std::vector<LastView>(margins_ ? views : 0)),
+      motions_(margins_ ? 8 * int64_t{views} : 0, nullptr) {
   gl::ProgramCache& cache = context.programs();
   const std::string folder = "renderer/many_lods/";
   gl::ShaderDefines defines;
   if (shape_.links) defines["LINKED"] = "1";
   if (ordered_) defines["ORDERED"] = "1";
+  if (margins_) {
+    defines["MARGINS"] = "1";
+    motion_ = &cache.compute(folder + "cut_motion.comp.glsl");
+  }
   gl::ShaderDefines restarting = defines;
   restarting["RESTART"] = "1";
   restart_ = &cache.compute(folder + "cut_begin.comp.glsl", restarting);
@@ -90,13 +103,15 @@ ListedCuts::ListedCuts(gl::Context& context, uint32_t views, const TreeShape& sh
       gl::ShaderDefines own = defines;
       own["RULE"] = std::to_string(rule);
       if (counting) own["COUNTING"] = "1";
+      if (free_ && rule == kRuleClimb) own["SPLITS_LATER"] = "1";
       classify_.push_back(
           &cache.compute(folder + (free_ ? "cut_step.comp.glsl" : "cut_classify.comp.glsl"), own));
     }
 }
 
 int64_t ListedCuts::bytes() const {
-  return list_.bytes() + codes_.bytes() + tiles_.bytes() + control_.bytes();
+  return list_.bytes() + codes_.bytes() + tiles_.bytes() + control_.bytes() + marginList_.bytes() +
+         lastViews_.bytes() + motions_.bytes();
 }
 
 void ListedCuts::setShape(const gl::Program& program) const {
@@ -136,9 +151,21 @@ void ListedCuts::step(uint32_t rule, uint32_t number, uint32_t last, bool counti
   dispatch(*emit_, number, offsetof(CutStep, emitX));
 }
 
+void ListedCuts::findMotions() const {
+  lastViews_.bindStorage(kMotionLastViewsBuffer);
+  shape_.travel->bindStorage(kMotionTravelBuffer);
+  motions_.bindStorage(kCutMotionsBuffer);
+  marginList_.bindStorage(kCutMarginsBuffer);
+  motion_->set("viewCount", viewCount_);
+  motion_->use();
+  glDispatchCompute((viewCount_ + kCutGroup - 1) / kCutGroup, 1, 1);
+}
+
 void ListedCuts::begin(const gl::Buffer& nodes, const gl::Buffer& views, bool fromRoot) {
   nodes.bindStorage(kCutNodesBuffer);
   views.bindStorage(kCutViewsBuffer);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (margins_) findMotions();
   list_.bindStorage(kCutListBuffer);
   codes_.bindStorage(kCutCodesBuffer);
   tiles_.bindStorage(kCutTilesBuffer);
@@ -147,9 +174,10 @@ void ListedCuts::begin(const gl::Buffer& nodes, const gl::Buffer& views, bool fr
   const gl::Program& program = fromRoot ? *restart_ : *begin_;
   program.set("viewCount", viewCount_);
   program.set("regions", ordered_ ? 2U : 3U);
+  const int rows = !free_ ? kCutRows : fromRoot ? kSplitRows : kKeepRows;
+  program.set("tile", static_cast<uint32_t>(kCutGroup * rows));
   setShape(program);
   program.use();
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   const uint32_t groups = fromRoot ? (viewCount_ + kCutGroup - 1) / kCutGroup : 1U;
   glDispatchCompute(std::clamp(groups, 1U, static_cast<uint32_t>(kMostCutGroups)), 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -167,8 +195,9 @@ void ListedCuts::update(const gl::Buffer& nodes, const gl::Buffer& views, bool c
     const uint32_t rule = std::holds_alternative<LazyCuts>(mode_) ? kRuleOneEdge : kRuleLiteral;
     for (uint32_t i = 0; i < edges; ++i) step(rule, i, edges - 1, counting);
   } else {
-    for (uint32_t i = 0; i < fullSteps_; ++i)
-      step(i == 0 && !fromRoot ? kRuleClimb : kRuleSplit, i, fullSteps_ - 1, counting);
+    const uint32_t steps = fullSteps_ + (free_ && !fromRoot ? 1U : 0U);
+    for (uint32_t i = 0; i < steps; ++i)
+      step(i == 0 && !fromRoot ? kRuleClimb : kRuleSplit, i, steps - 1, counting);
   }
   end();
 }

@@ -24,6 +24,10 @@ gl::Buffer cutStorage(int64_t bytes);
 /// frame is copied once, however deep a few of its entries go down. It is in order of views where no step
 /// after the first had anything to do.
 ///
+/// The first step of incremental cuts of free order keeps, merges and drops, and leaves over what has to be
+/// split. With margins, beside each entry stands how far eye and surface may move before a test of
+/// it or of its parent can come out otherwise. While that lasts it is kept without a look at the tree.
+///
 /// Lazy cuts need siblings beside each other: their list is kept in order, by view and then from left to
 /// right in the tree, and each step writes all of it.
 class ListedCuts : public CutFinder {
@@ -52,14 +56,18 @@ class ListedCuts : public CutFinder {
   uint32_t viewCount_, capacity_, arityBits_;
   bool ordered_;          // lazy cuts
   bool free_;             // a dispatch a step
+  bool margins_;          // entries are tested when something has moved too far
   uint32_t splitLevels_;  // of a step that goes as far as it can
   uint32_t fullSteps_;
   bool fresh_ = true;
   gl::Buffer list_, codes_, tiles_, control_;
+  gl::Buffer marginList_, lastViews_, motions_;
+  const gl::Program* motion_ = nullptr;
   const gl::Program *restart_, *begin_, *scan_, *emit_;
   std::vector<const gl::Program*> classify_;  // by rule, then with counting; a whole step where order is free
 
  private:
+  void findMotions() const;
   void setShape(const gl::Program& program) const;
 };
 

@@ -34,6 +34,22 @@ static_assert(sizeof(CutView) == 80);
 const uint kViewHemisphere = 0u;  // stereographic: all directions in front fill the disc in the tile
 const uint kViewPerspective = 1u;
 
+// A view as it was when cuts were last found, and how far the tree had travelled then.
+struct LastView {  // std430
+  CutView view;
+  double centres, radii;
+};
+// How far a tree's nodes have moved since it was made: the sum over its updates of the farthest that a centre went, and of the most by
+// which a radius changed; and both of the update that is going on, as bits.
+struct TreeTravel {  // std430
+  double centres, radii;
+  uint centreNow, radiusNow;
+  uint unused0, unused1;
+};
+#ifdef __cplusplus
+static_assert(sizeof(LastView) == 96 && sizeof(TreeTravel) == 32);
+#endif
+
 // Lists of cuts: x: node, y: view and this flag: nothing is left to do in this frame.
 const uint kEntryDone = 0x80000000u;
 
@@ -43,6 +59,7 @@ const uint kEntryDone = 0x80000000u;
 const uint kCodeSplit = 1u;
 const uint kCodeClimbShift = 8u;
 const uint kCodeDropped = 0x80000000u;
+const uint kCodeOpen = 0x40000000u;  // it is left over for the next step as it is
 const int kMostSplitLevels = 5;
 
 // Cuts by geometry shaders.
@@ -52,6 +69,10 @@ const uint kFeedbackViewsUnit = 1u;
 const int kCutGroup = 256;
 const int kCutRows = 4;  // entries of an invocation
 const int kCutTile = kCutGroup * kCutRows;
+// Entries of an invocation in steps in one dispatch: fewer leave registers for more groups; where entries are only kept or left over,
+// two share a parent's test.
+const int kSplitRows = 1;
+const int kKeepRows = 2;
 const int kMostCutGroups = 16384;  // of a dispatch; groups take several tiles
 const int kMostCutSteps = 64;
 const int kCutScanGroup = 256;
@@ -99,6 +120,11 @@ const uint kCutCodesBuffer = 3u;
 const uint kCutTilesBuffer = 4u;
 const uint kCutControlBuffer = 5u;
 const uint kCutLinksBuffer = 6u;
+// Of entries that are not tested while nothing has moved too far; not with links.
+const uint kCutMotionsBuffer = 6u;
+const uint kCutMarginsBuffer = 7u;
+const uint kMotionLastViewsBuffer = 3u;
+const uint kMotionTravelBuffer = 4u;
 // Triangle of the sample of an inner node, where samples are those of all nodes.
 const uint kNoTriangle = 0xffffffffu;
 
@@ -121,10 +147,11 @@ const uint kUpdateIndicesBuffer = 1u;
 const uint kUpdatePointsBuffer = 2u;
 const uint kUpdateNodesBuffer = 3u;
 const uint kUpdateConesBuffer = 4u;
+const uint kUpdateTravelBuffer = 5u;
 
 // Atlas of views: tile after tile, row after row. Nodes, views, list and control as above.
 const int kSplatGroup = 256;
-const int kSmallSplatPx = 64;  // boxes of more pixels are drawn by the whole group
+const int kSmallSplatPx = 16;  // boxes of more pixels are drawn by the whole group
 const uint kSplatDepthsBuffer = 3u;
 const uint kSplatWinnersBuffer = 4u;
 const uint kSplatColoursBuffer = 6u;

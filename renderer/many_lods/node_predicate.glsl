@@ -32,3 +32,33 @@ bool isFineEnough(vec4 sphere, CutView view) {
 bool isValid(vec4 sphere, uint node, uint leaves, CutView view) {
   return node >= leaves || isFineEnough(sphere, view) || isCulled(sphere.xyz, sphere.w, node, leaves, view);
 }
+
+#ifdef MARGINS
+const float kNoMargin = 1e38;  // never to be tested again
+
+// How far a node and the eye may move apart or together, and how far, turning included, what is seen from the eye may move across, before
+// what is said of the node's validity can change; no more than rounding leaves certain. A change of the radius counts q times, as in
+// isFineEnough(). `valid`: what that or isCulledAt() said of the node, which is no leaf.
+vec2 marginsOf(vec4 sphere, uint levelsAboveLeaves, CutView view, bool valid) {
+  const vec3 v = sphere.xyz - view.eye.xyz;
+  const float distance_ = length(v), size = sqrt(view.eye.w) * sphere.w, rounding = 4e-6 * (distance_ + size);
+  const float apart = distance_ - size;
+  if (valid && apart > rounding) return vec2(apart - rounding, kNoMargin);
+  const float depth = dot(v, view.axisZ.xyz);
+  float outside = -depth;
+  if (view.axisZ.w != float(kViewHemisphere)) {
+    const float x = abs(dot(v, view.axisX.xyz)), y = abs(dot(v, view.axisY.xyz));
+    outside = max(outside, (x - depth * view.axisX.w) / view.frustum.x);
+    outside = max(outside, (y - depth * view.axisY.w) / view.frustum.y);
+  }
+  outside -= sphere.w + kCullSlack * float(levelsAboveLeaves) * (abs(v.x) + abs(v.y) + abs(v.z));
+  return valid ? vec2(kNoMargin, outside - rounding) : vec2(-apart, -outside) - rounding;
+}
+
+// Rounded down, to 8 bits of mantissa each.
+uint packedMargins(vec2 margins) {
+  const uvec2 bits = floatBitsToUint(max(margins, vec2(0.0)));
+  return (bits.x & 0xffff0000u) | bits.y >> 16u;
+}
+vec2 unpackedMargins(uint bits) { return uintBitsToFloat(uvec2(bits & 0xffff0000u, bits << 16u)); }
+#endif

@@ -65,14 +65,28 @@ void cover(Disc disc, ivec2 pixel) {
 #endif
 }
 
+// Larger discs are drawn by the whole group, a row at a time.
 shared Disc large[kSplatGroup];
-shared uint largeCount;
+shared uint firstRow[kSplatGroup];
+shared uint largeRows;  // in the low kRowBits bits; above them how many discs they are of
+const uint kRowBits = 23u;
+
+// The last disc that starts at this row or before it.
+uint discOfRow(uint row, uint discs) {
+  uint low = 0u, high = discs;
+  while (high - low > 1u) {
+    const uint middle = (low + high) / 2u;
+    if (firstRow[middle] <= row) low = middle;
+    else high = middle;
+  }
+  return low;
+}
 
 void main() {
   const uint me = gl_LocalInvocationIndex;
   const uint count = control.count, at = control.readAt;
   for (uint first = gl_WorkGroupID.x * uint(kSplatGroup); first < count; first += gl_NumWorkGroups.x * uint(kSplatGroup)) {
-    if (me == 0u) largeCount = 0u;
+    if (me == 0u) largeRows = 0u;
     barrier();
     Disc disc;
     if (first + me < count && !isOwn(list[at + first + me]) && discOf(list[at + first + me], disc)) {
@@ -80,21 +94,23 @@ void main() {
       boxOf(disc, low, high);
       const ivec2 size = max(high - low + 1, ivec2(0));
       if (size.x * size.y > kSmallSplatPx) {
-        large[atomicAdd(largeCount, 1u)] = disc;
+        const uint before = atomicAdd(largeRows, 1u << kRowBits | uint(size.y));
+        large[before >> kRowBits] = disc;
+        firstRow[before >> kRowBits] = before & ((1u << kRowBits) - 1u);
       } else {
         for (int y = low.y; y <= high.y; ++y)
           for (int x = low.x; x <= high.x; ++x) cover(disc, ivec2(x, y));
       }
     }
     barrier();
-    const uint discs = largeCount;
-    for (uint i = 0u; i < discs; ++i) {
+    const uint discs = largeRows >> kRowBits, rows = largeRows & ((1u << kRowBits) - 1u);
+    for (uint row = me; row < rows; row += uint(kSplatGroup)) {
+      const uint i = discOfRow(row, discs);
       const Disc shared_ = large[i];
       ivec2 low, high;
       boxOf(shared_, low, high);
-      const ivec2 size = high - low + 1;
-      for (int pixel = int(me); pixel < size.x * size.y; pixel += kSplatGroup)
-        cover(shared_, low + ivec2(pixel % size.x, pixel / size.x));
+      const int y = low.y + int(row - firstRow[i]);
+      for (int x = low.x; x <= high.x; ++x) cover(shared_, ivec2(x, y));
     }
     barrier();
   }

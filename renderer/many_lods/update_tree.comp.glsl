@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spheres of the tree from the leaves up, several levels a dispatch: a group makes everything between 512 leaves, or nodes of a
-// level, and their common ancestor. LEAVES: of leaves, from the triangles where they are now. CONES: cones as well. Twins:
-// mergedSphere(), merged() and pack() in sphere_tree.cpp.
+// level, and their common ancestor. LEAVES: of leaves, from the triangles where they are now. CONES: cones as well. TRAVEL: and how
+// far they move. Twins: mergedSphere(), merged() and pack() in sphere_tree.cpp.
 #include "renderer/many_lods/many_lods_bindings.h"
 
 layout(local_size_x = kUpdateGroup) in;
@@ -20,6 +20,42 @@ shared vec4 line[kUpdateGroup];
 shared uvec2 coneLine[kUpdateGroup];
 #endif
 
+#ifdef TRAVEL
+layout(std430, binding = kUpdateTravelBuffer) buffer Travel { TreeTravel travel; };
+shared uint centreHere, radiusHere;
+vec2 moved = vec2(0.0);
+#endif
+
+void put(uint node, vec4 sphere) {
+#ifdef TRAVEL
+  const vec4 before = nodes[node];
+  moved = max(moved, vec2(distance(before.xyz, sphere.xyz), abs(before.w - sphere.w)));
+#endif
+  nodes[node] = sphere;
+}
+
+#ifdef TRAVEL
+// By all of the group, at the end. The last dispatch has one group, and adds up.
+void travelOn() {
+  if (gl_LocalInvocationIndex == 0u) centreHere = radiusHere = 0u;
+  barrier();
+  if (moved != vec2(0.0)) {
+    atomicMax(centreHere, floatBitsToUint(moved.x));
+    atomicMax(radiusHere, floatBitsToUint(moved.y));
+  }
+  barrier();
+  if (gl_LocalInvocationIndex > 0u) return;
+  if (gl_NumWorkGroups.x > 1u) {
+    if (centreHere > 0u) atomicMax(travel.centreNow, centreHere);
+    if (radiusHere > 0u) atomicMax(travel.radiusNow, radiusHere);
+    return;
+  }
+  travel.centres += double(uintBitsToFloat(max(centreHere, travel.centreNow)));
+  travel.radii += double(uintBitsToFloat(max(radiusHere, travel.radiusNow)));
+  travel.centreNow = travel.radiusNow = 0u;
+}
+#endif
+
 void main() {
   const uint me = gl_LocalInvocationIndex;
   const uint at = gl_WorkGroupID.x * kInputs + 2u * me;  // of the two that this invocation merges
@@ -31,8 +67,8 @@ void main() {
 #ifdef LEAVES
     vec3 normalA, normalB;
     const vec4 a = leafOf(at, normalA), b = leafOf(at + 1u, normalB);
-    nodes[first + at] = a;
-    nodes[first + at + 1u] = b;
+    put(first + at, a);
+    put(first + at + 1u, b);
 #ifdef CONES
     const uvec2 coneA = packedCone(unitOr(normalA), 0.0), coneB = packedCone(unitOr(normalB), 0.0);
     cones[first + at] = coneA;
@@ -51,7 +87,7 @@ void main() {
   while (true) {
     const uint here = gl_WorkGroupID.x * width + me;
     if (me < width && here < level) {
-      nodes[level + here] = own;
+      put(level + here, own);
 #ifdef CONES
       cones[level + here] = cone;
 #endif
@@ -72,4 +108,7 @@ void main() {
 #endif
     }
   }
+#ifdef TRAVEL
+  travelOn();
+#endif
 }

@@ -18,6 +18,7 @@ const uint kPointsDepthsBuffer = 0u;
 const uint kPointsWinnersBuffer = 1u;
 const uint kPointsColoursBuffer = 2u;
 const uint kPointsImage = 0u;
+const uint kCameraViewsUnit = 0u;  // of several views of a camera
 
 // Virtual point lights.
 struct VirtualLight {  // std430; relative to the anchor

@@ -86,6 +86,12 @@ SceneTree::SceneTree(frame::Frame& frame, const TreeSettings& settings, bool bal
   frame.passes().setBytesHeld(kUpdatePass, tree_->bytes());
 }
 
+many_lods::MultiCut SceneTree::cutsFor(frame::Frame& frame, uint32_t views, const CutLimits& limits,
+                                       const many_lods::CutMode& mode) {
+  if (many_lods::wantsTravel(mode)) tree_->keepTravel(frame.context(), !frame.scene().motions.empty());
+  return {frame.context(), views, tree_->shape(), limits.capacity(views), mode};
+}
+
 void SceneTree::update(frame::Frame& frame) const {
   if (!settings_.update && frame.scene().motions.empty()) return;
   const auto scope = frame.passes().open(kUpdatePass);

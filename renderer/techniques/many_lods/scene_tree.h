@@ -46,6 +46,10 @@ class SceneTree {
   /// Opens the pass many_lods/update. Nothing to do where nothing moves and settings do not ask for it.
   void update(frame::Frame& frame) const;
 
+  /// Cuts of this tree, which is prepared for what they need to know.
+  many_lods::MultiCut cutsFor(frame::Frame& frame, uint32_t views, const CutLimits& limits,
+                              const many_lods::CutMode& mode);
+
   const many_lods::GpuTree& tree() const { return *tree_; }
   double buildMs() const { return buildMs_; }
   /// For drawing: nodes nearer than `nearest` radii of leaves are left out.

@@ -114,8 +114,7 @@ class Gathering : public Technique {
     tree_.emplace(frame, receivers_.tree);
     grid_ = (frame.sizePx() + receivers_.spacing - 1) / receivers_.spacing;
     const auto views = static_cast<uint32_t>(grid_.x * grid_.y);
-    cut_.emplace(frame.context(), views, tree_->tree().depth(), receivers_.limits.capacity(views),
-                 receivers_.cuts);
+    cut_.emplace(tree_->cutsFor(frame, views, receivers_.limits, receivers_.cuts));
     atlas_.emplace(frame.context(), views, glm::ivec2(receivers_.tilePx),
                    kLight ? many_lods::AtlasForm::Wide : many_lods::AtlasForm::Depth, receivers_.tree.discs);
     views_.emplace(views * int64_t{sizeof(many_lods::CutView)}, nullptr);

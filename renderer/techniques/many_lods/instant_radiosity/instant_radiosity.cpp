@@ -86,8 +86,7 @@ class InstantRadiosity : public Technique {
     } else if (std::holds_alternative<many_lods::SequentialSettings>(settings_.cuts)) {
       sequential_.emplace(frame.context(), lights_->count(), depth, settings_.tree.discs);
     } else {
-      cut_.emplace(frame.context(), lights_->count(), depth, settings_.limits.capacity(lights_->count()),
-                   listed(settings_.cuts));
+      cut_.emplace(tree_->cutsFor(frame, lights_->count(), settings_.limits, listed(settings_.cuts)));
       frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
     }
     atlas_.emplace(frame.context(), lights_->count(), glm::ivec2(settings_.tilePx),

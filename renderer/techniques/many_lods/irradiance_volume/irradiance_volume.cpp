@@ -59,8 +59,7 @@ class IrradianceVolume : public Technique {
     light_.emplace(frame, tree_->tree());
     placeProbes(frame);
     const auto count = static_cast<uint32_t>(2 * probeCount());
-    cut_.emplace(frame.context(), count, tree_->tree().depth(), settings_.limits.capacity(count),
-                 settings_.cuts);
+    cut_.emplace(tree_->cutsFor(frame, count, settings_.limits, settings_.cuts));
     atlas_.emplace(frame.context(), count, glm::ivec2(settings_.tilePx), many_lods::AtlasForm::Wide,
                    settings_.tree.discs);
     probes_.emplace(int64_t{16} * kProbeTerms * probeCount(), nullptr);

@@ -113,7 +113,7 @@ class NaturalIllumination : public Technique {
     makeLights(frame);
     if (cuts_) {
       tree_.emplace(frame, cuts_->tree);
-      cut_.emplace(frame.context(), count, tree_->tree().depth(), cuts_->limits.capacity(count), cuts_->cuts);
+      cut_.emplace(tree_->cutsFor(frame, count, cuts_->limits, cuts_->cuts));
       frame.passes().setBytesHeld(kCutsPass, cut_->bytes());
     }
     if (polygons_) triangles_.emplace(frame);

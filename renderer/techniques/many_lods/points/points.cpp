@@ -73,7 +73,7 @@ class AdaptivePoints : public Technique {
   void prepare(frame::Frame& frame) override {
     tree_.emplace(frame, settings_.tree, settings_.balanced);
     light_.emplace(frame, tree_->tree(), settings_.shading);
-    cut_.emplace(frame.context(), 1U, tree_->tree().shape(), settings_.limits.capacity(1), settings_.cuts);
+    cut_.emplace(tree_->cutsFor(frame, 1U, settings_.limits, settings_.cuts));
     atlas_.emplace(frame.context(), 1U, frame.sizePx(), formOf(settings_.pixels), settings_.tree.discs);
     views_.emplace(int64_t{sizeof(many_lods::CutView)}, nullptr);
     resolve_ =

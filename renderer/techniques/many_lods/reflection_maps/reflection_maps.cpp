@@ -184,7 +184,7 @@ class ReflectionMaps : public Technique {
   void prepareCuts(frame::Frame& frame, uint32_t count) {
     tree_.emplace(frame, cuts_->tree);
     light_.emplace(frame, tree_->tree(), settings_.shading);
-    cut_.emplace(frame.context(), count, tree_->tree().depth(), cuts_->limits.capacity(count), cuts_->cuts);
+    cut_.emplace(tree_->cutsFor(frame, count, cuts_->limits, cuts_->cuts));
     atlas_.emplace(frame.context(), count, glm::ivec2(settings_.tilePx), many_lods::AtlasForm::Wide,
                    cuts_->tree.discs, true);
     // A node belongs to an object if all points below it do.
