@@ -61,11 +61,11 @@ TEST_F(DetailBySizeTest, TheErrorIsKeptOnAPathOfDistances) {
 
 // One form for each object: beside a field of the finest form everywhere the picture changes by no more than the error.
 TEST_F(DetailBySizeTest, EachObjectHasItsOwnForm) {
-  constexpr double kError = 0.08;
+  constexpr double kError = 0.1;
   scene::Scene scene = seenFrom(4.0);
   for (const double x : {-9.0, -4.0, 9.0}) {
-    scene::Mesh far = scene::box({x, 0.0, -14.0}, {x + 0.8, 1.2, -13.5});
-    scene::append(far, scene::box({x + 1.0, 0.0, -14.0}, {x + 1.2, 0.6, -13.0}));
+    scene::Mesh far = scene::box({x, 0.0, -30.0}, {x + 0.8, 1.2, -29.5});
+    scene::append(far, scene::box({x + 1.0, 0.0, -30.0}, {x + 1.2, 0.6, -29.0}));
     scene::addPart(scene, "far", far, glm::vec3(0.5F));
   }
   Given given = {{"rays", int64_t{64}}, {"objects", std::string("parts")}};
