@@ -46,19 +46,17 @@ struct FieldAsk {
   float least;        // of it, to count
 };
 
-bool fieldBlocked = false;  // since it was last cleared: something was met that counts
-
-float fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+// x: share that is let through; y: 1 if nothing is met that counts, 0 otherwise. Of neighbours: weighed means.
+vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
   const float distance = ask.from + 2.0 * ask.along * share;
-  if (share < 0.0) return 1.0;
+  if (share < 0.0) return vec2(1.0);
   const bool blocks = distance > ask.least;
   fieldNote(distance, 2.0 * share, abs(1.0 - 2.0 * share / ask.reach), blocks || view.slack == 0.0);
-  if (blocks) fieldBlocked = true;
-  return blocks ? seenAt(view.radius * distance) : 1.0;
+  return blocks ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
 }
 
-float fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
+vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   vec3 local = fieldLocal(fieldMaps[map].xyz, ask.aim);
 #if FIELD_FETCH == 3
   const vec2 place = float(FIELD_SIDE) * fieldSeenPlace(local) - 0.5;
@@ -84,7 +82,7 @@ int fieldCornerMap(FieldView view, vec3 point, ivec2 at) {
 #endif
 
 // Share that the positions around a point of the sphere let through.
-float fieldSeenAround(FieldView view, FieldAsk ask, vec3 point) {
+vec2 fieldSeenAround(FieldView view, FieldAsk ask, vec3 point) {
 #if FIELD_POSITION_FORM != 0
   return fieldSeenFrom(view, ask, view.firstMap + fieldNearestPosition(uint(view.firstMap), normalize(point)));
 #else
@@ -102,7 +100,7 @@ float fieldSeenAround(FieldView view, FieldAsk ask, vec3 point) {
 #else
   // Rounded, a point on an octant's border may seem to be beyond it, where no corners are.
   const vec3 counted = cell.x + cell.y < FIELD_SEGMENTS ? weights : vec3(1.0, 0.0, 0.0);
-  float sum = counted.x * fieldSeenFrom(view, ask, fieldCornerMap(view, point, first));
+  vec2 sum = counted.x * fieldSeenFrom(view, ask, fieldCornerMap(view, point, first));
   if (counted.y > 0.0) sum += counted.y * fieldSeenFrom(view, ask, fieldCornerMap(view, point, second));
   if (counted.z > 0.0) sum += counted.z * fieldSeenFrom(view, ask, fieldCornerMap(view, point, third));
   return sum / (counted.x + counted.y + counted.z);
@@ -126,15 +124,13 @@ float fieldSeen(FieldView view, vec3 direction) {
   ask.from = inside ? leave : entry;
   ask.along = inside ? -1.0 : 1.0;
   ask.least = inside ? view.slack : -1.0;
-  fieldBlocked = false;
-  const float seen = fieldSeenAround(view, ask, middle + (inside ? halfLength : -halfLength) * direction);
-  if (!(inside && fieldBlocked && seen > 0.0)) return seen;
+  const vec2 back = fieldSeenAround(view, ask, middle + (inside ? halfLength : -halfLength) * direction);
+  if (!(inside && back.x > back.y)) return back.x;
   // What blocks lets through by its distance, which is the farthest that it can be. On the way from where the ray's line enters the
-  // sphere the nearest is met first, if nothing lies behind the origin.
+  // sphere the nearest is met first, if nothing lies behind the origin. Of the neighbours only those that are blocked are in question.
   ++fieldLookUps;
   ask.reach = -entry, ask.from = entry, ask.along = 1.0;
-  fieldBlocked = false;
-  const float seenOnTheWay = fieldSeenAround(view, ask, middle - halfLength * direction);
-  if (!fieldBlocked) fieldNoteUnknown();
-  return min(seen, seenOnTheWay);
+  const vec2 ahead = fieldSeenAround(view, ask, middle - halfLength * direction);
+  if (ahead.y > 0.999999) fieldNoteUnknown();  // rounded
+  return back.y + min(back.x - back.y, (1.0 - back.y) * ahead.x);
 }
