@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/ray_tracing/ray_scene.h"
 
-#include <epoxy/gl.h>
-
 #include <chrono>
-#include <string>
 
-#include "experiments/base/error.h"
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
+#include "renderer/ray_tracing/tree_upload.h"
 
 namespace limen::ray_tracing {
-namespace {
-
-template <class T>
-gl::Buffer upload(const std::vector<T>& data) {
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  const auto bytes = static_cast<int64_t>(data.size() * sizeof(T));
-  if (bytes > most)
-    throw Error("a tree for rays takes " + std::to_string(bytes) +
-                    " bytes in one buffer; this device allows " + std::to_string(most),
-                {}, "use a smaller scene, or trace rays on the CPU");
-  return gl::Buffer(data);
-}
-
-}  // namespace
 
 RayScene::RayScene(gl::Context& context, const WideBvh& tree, double buildS)
-    : mostIterations_(context.device().software ? 60000 : 0x7fffffff),
+    : mostIterations_(mostRayIterations(context)),
       levels_(tree.levels()),
       nodeCount_(static_cast<uint32_t>(tree.nodes().size())),
       triangleCount_(static_cast<uint32_t>(tree.triangles().size())),
       buildS_(buildS),
-      nodes_(upload(tree.nodes())),
-      triangles_(upload(tree.triangles())) {}
+      nodes_(uploadTree(tree.nodes())),
+      triangles_(uploadTree(tree.triangles())) {}
 
 RayScene RayScene::build(gl::Context& context, const std::vector<glm::vec3>& vertices,
                          const std::vector<glm::uvec3>& triangles) {

@@ -16,6 +16,7 @@ const uint kRayTrianglesBuffer = 7u;
 const int kRayLevels = 20;
 const int kRayStack = 32;
 const uint kRayNoTriangle = 0xffffffffu;
+const uint kRayNoRoot = 0xffffffffu;  // of an object without a tree (RayForest)
 const float kRayFarthest = 3.0e38f;  // `far` of a ray without end
 
 // Rays given in a buffer (RayBatch).

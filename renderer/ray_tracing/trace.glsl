@@ -7,6 +7,8 @@
 // vertex, and the sign of an edge is that of the exact one or zero, which counts as inside: no ray passes between
 // triangles that share an edge or a vertex.
 //
+// RAY_FOREST: of one tree of a RayForest, whose root is rayRoot.
+//
 // The shader that includes this defines rayHitCounts(), which may reject hits, and sets what RayTree::bind() needs.
 #include "renderer/ray_tracing/ray_tracing_bindings.h"
 #include "renderer/ray_tracing/ray_triangle.glsl"
@@ -20,6 +22,12 @@ layout(std430, binding = kRayTrianglesBuffer) readonly buffer RayTriangles { vec
 
 uniform uint rayNodeCount;      // or of cells; 0: nothing to hit
 uniform int maxRayIterations;  // of all loops of an invocation that the driver's compiler allows
+
+#ifdef RAY_FOREST
+uint rayRoot = 0u;
+#else
+const uint rayRoot = 0u;
+#endif
 
 struct Ray {
   vec3 origin, direction;
@@ -106,7 +114,7 @@ RayHit rayTraverse(Ray ray, bool anyIsEnough) {
 
   uvec2 stack[kRayStack];
   int depth = 0;
-  uvec2 group = uvec2(0u, 0x80000000u);  // first child; those to visit, and which of all are inner
+  uvec2 group = uvec2(rayRoot, 0x80000000u);  // first child; those to visit, and which of all are inner
   while (true) {
     rayIterations += 2;  // one for the end of the inner loop
     if (rayIterations > maxRayIterations) {

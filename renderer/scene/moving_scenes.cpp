@@ -2,6 +2,7 @@
 // Scenes whose parts move while others stand still or are hidden, for what is kept from frame to frame: a box
 // before a wall, a door that turns before a hidden wall. After Gaitatzes 2012, Fig. 74 and 77.
 #include <cmath>
+#include <numbers>
 
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
@@ -133,6 +134,58 @@ const RegisteredScene<MovingDoorSettings> kMovingDoorRegistered{
          "Door that turns about its middle before a wall that it hides, and a figure of parts that moves",
      .source = "after Gaitatzes 2012, Fig. 74"},
     buildMovingDoor};
+
+struct MovingWheelSettings {
+  int spokes = 9;
+  double thickness = 0.01, height = 0.05, turnDegS = 45.0, reach = 0.2, periodS = 5.0, startS = 0.0;
+  static const SettingsTable<MovingWheelSettings>& table() {
+    using S = MovingWheelSettings;
+    static const SettingsTable<S> kTable = {
+        {&S::spokes, "spokes", {1, 64}, "", "Of the wheel"},
+        {&S::thickness, "thickness", {0.0001, 0.1}, "m", "Of a spoke, up and across; it is 1 long"},
+        {&S::height, "height", {0.001, 1.0}, "m", "Of the spokes above the ground"},
+        {&S::turnDegS, "turn_deg_s", {0.0, 3600.0}, "deg/s", "Of the wheel about its axis, which stands upright"},
+        {&S::reach, "reach", {0.0, 1.0}, "m", "That the wheel moves to both sides"},
+        {&S::periodS, "period_s", {0.001, 60.0}, "s", "Of its motion to and fro"},
+        {&S::startS, "start_s", {0.0, 600.0}, "s", "Time of the motion at which the scene begins"}};
+    return kTable;
+  }
+};
+
+Scene buildMovingWheel(const MovingWheelSettings& settings) {
+  Scene scene;
+  addGround(scene, 8.0);
+  // Off the middle, so that no spoke starts along a grid of pixels.
+  const glm::dvec3 hub(0.013, settings.height, 0.011);
+  const double half = 0.5 * settings.thickness;
+  Mesh wheel = frustum(hub - glm::dvec3(0.0, half, 0.0), hub + glm::dvec3(0.0, 0.25, 0.0), 0.06, 0.03, 24);
+  for (int i = 0; i < settings.spokes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.3) / settings.spokes;
+    const glm::dvec3 along(std::cos(angle), 0.0, std::sin(angle)), across(-along.z, 0.0, along.x);
+    Mesh spoke = box({-0.5, -half, -half}, {0.5, half, half});
+    for (glm::dvec3& p : spoke.positions)
+      p = hub + (0.55 + p.x) * along + p.z * across + glm::dvec3(0.0, p.y, 0.0);
+    append(wheel, spoke);
+  }
+  addPart(scene, "wheel", wheel, kMoves);
+  PartMotion motion = motionOfLast(scene);
+  motion.pivot = hub;
+  motion.turnDegS = settings.turnDegS;
+  motion.travel = {settings.reach, 0.0, 0.0};
+  motion.periodS = settings.periodS;
+  motion.startS = settings.startS;
+  scene.motions = {motion};
+  scene.lights = {lightTowards({-1.2, 3.0, 1.0}, {0.0, 0.0, 0.0}, glm::dvec2(0.3))};
+  setStillCamera(scene, {{0.4, 2.6, 2.4}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 36.0});
+  return scene;
+}
+
+const RegisteredScene<MovingWheelSettings> kMovingWheelRegistered{
+    {.name = "moving/wheel",
+     .version = 1,
+     .summary = "Wheel of thin spokes that turns and shifts over a ground: thin parts under motion",
+     .source = "bench"},
+    buildMovingWheel};
 
 }  // namespace
 }  // namespace limen::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/visibility_fields/cpu_field.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -76,7 +77,15 @@ CpuField::CpuField(const RigidObject& object, const FieldForm& form)
 }
 
 float CpuField::shareFrom(glm::vec3 point, glm::vec3 direction) const {
+  return shareOf(positions_.nearest(point), direction);
+}
+
+float CpuField::shareTowards(glm::vec3 point, glm::vec3 aim) const {
   const int map = positions_.nearest(point);
+  return shareOf(map, glm::normalize(aim - positions_.points()[static_cast<size_t>(map)]));
+}
+
+float CpuField::shareOf(int map, glm::vec3 direction) const {
   const glm::vec3 z = -positions_.points()[static_cast<size_t>(map)];
   glm::vec3 local(glm::dot(fieldTangent(z), direction), glm::dot(fieldBitangent(z), direction),
                   glm::dot(z, direction));
@@ -89,7 +98,7 @@ float CpuField::shareFrom(glm::vec3 point, glm::vec3 direction) const {
   return shares_[static_cast<size_t>((map * form_.directions + texel.y) * form_.directions + texel.x)];
 }
 
-double CpuField::distance(glm::dvec3 origin, glm::dvec3 direction, double slack) const {
+double CpuField::distance(glm::dvec3 origin, glm::dvec3 direction, double slack, bool aimed) const {
   const glm::dvec3 from = (origin - sphere_.centre) / sphere_.radius;
   const double along = -glm::dot(from, direction);
   const glm::dvec3 middle = from + along * direction;
@@ -99,11 +108,17 @@ double CpuField::distance(glm::dvec3 origin, glm::dvec3 direction, double slack)
   if (!(along + half > 0.0)) return -1.0;
   const bool inside = along < half;
   const glm::vec3 point(glm::normalize(middle + (inside ? half : -half) * direction));
-  const float share = shareFrom(point, glm::vec3(inside ? -direction : direction));
+  const glm::vec3 aim(inside ? from : middle);
+  const float share =
+      aimed ? shareTowards(point, aim) : shareFrom(point, glm::vec3(inside ? -direction : direction));
   if (share < 0.0F) return -1.0;
   if (!inside) return sphere_.radius * (along - half + 2.0 * share);
   const double before = along + half - 2.0 * share;
-  return before > 2.0 * slack ? sphere_.radius * before : -1.0;
+  if (!(before > 2.0 * slack)) return -1.0;
+  if (!aimed) return sphere_.radius * before;
+  const float shareAhead = shareTowards(glm::vec3(glm::normalize(middle - half * direction)), aim);
+  const double ahead = along - half + 2.0 * shareAhead;
+  return sphere_.radius * (shareAhead >= 0.0F && ahead > 2.0 * slack ? std::min(ahead, before) : before);
 }
 
 double fieldSpacing(const FieldForm& form) {

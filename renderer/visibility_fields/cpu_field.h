@@ -22,14 +22,17 @@ class CpuField {
   CpuField(const RigidObject& object, const FieldForm& form);
 
   /// Distance to the object along the unit direction, -1: none; positions in the world. `slack` as in
-  /// field_batch.h. Any number of threads at once.
-  double distance(glm::dvec3 origin, glm::dvec3 direction, double slack) const;
+  /// field_batch.h; `aimed` as FIELD_AIMED in field_lookup.glsl. Any number of threads at once.
+  double distance(glm::dvec3 origin, glm::dvec3 direction, double slack, bool aimed = false) const;
   uint32_t owner() const { return owner_; }
   const Sphere& sphere() const { return sphere_; }
   int64_t rayCount() const { return static_cast<int64_t>(shares_.size()); }
 
  private:
+  /// Stored in the map nearest to a point of the unit sphere: for a direction, or, aimed, for that to a point within it.
   float shareFrom(glm::vec3 point, glm::vec3 direction) const;
+  float shareTowards(glm::vec3 point, glm::vec3 aim) const;
+  float shareOf(int map, glm::vec3 direction) const;
 
   FieldForm form_;
   PositionMap positions_;

@@ -10,10 +10,12 @@
 namespace limen::visibility_fields {
 
 std::vector<float> lookUp(gl::Context& context, const VisibilityFields& fields, uint32_t object,
-                          const std::vector<ray_tracing::BatchRay>& rays, double slack) {
+                          const std::vector<ray_tracing::BatchRay>& rays, double slack, bool aimed) {
   constexpr size_t kMostRays = size_t{65535} * kFieldBatchGroup;
+  gl::ShaderDefines defines = fields.defines();
+  if (aimed) defines["FIELD_AIMED"] = "1";
   const gl::Program& program =
-      context.programs().compute("renderer/visibility_fields/field_batch.comp.glsl", fields.defines());
+      context.programs().compute("renderer/visibility_fields/field_batch.comp.glsl", defines);
   const gl::Buffer given(rays), distances(static_cast<int64_t>(rays.size() * sizeof(float)), nullptr);
   fields.bind(program);
   given.bindStorage(kFieldBatchRaysBuffer);

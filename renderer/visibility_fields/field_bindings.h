@@ -29,11 +29,13 @@ const uint kFieldNoObject = 0xffffffffu;
 struct FieldObject {  // std430
   vec3 centre;        // relative to the scene's anchor
   float radius;
-  vec4 axisX, axisY, axisZ;  // of the object in the world, unit; w unused
+  // Of the object in the world, unit. In w, of fields of several forms: segments + 256 side + 2^17 bits; the first slice of
+  // its words; positions.
+  vec4 axisX, axisY, axisZ;
   uint firstMap;             // of its field
   uint owner;                // number of the rigid object that it is, or a part of
   uint albedo;               // packUnorm4x8
-  uint unused;
+  uint root;                 // of its tree in the fields' RayForest; kRayNoRoot: none
 };
 #ifdef __cplusplus
 static_assert(sizeof(FieldObject) == 80 && offsetof(FieldObject, axisX) == 16);

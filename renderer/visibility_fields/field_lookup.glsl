@@ -8,6 +8,23 @@ uniform uint fieldObjectCount;
 const float kFieldNothing = -1.0;
 uint fieldLookUps = 0u;  // spheres that rays of this invocation met
 
+// FIELD_NEAR: whether a ray of this invocation found a surface that is as near to its origin as some footprints of the stored ray
+// that told of it, so that this does not tell what is there, or found that something blocks it but not where. Objects find their own
+// surface only where it blocks.
+#ifdef FIELD_NEAR
+bool fieldNear = false;
+uniform float nearFootprints;
+// `distance`: of the surface from the origin, and `way` from the position, in radii; `beside`: how far from the ray the stored one is
+// there, in units of what the position is from the ray's own place on the sphere.
+void fieldNote(float distance, float way, float beside, bool counts) {
+  if (counts && abs(distance) < nearFootprints * (FIELD_TEXEL_SPACING * way + FIELD_POSITION_SPACING * beside)) fieldNear = true;
+}
+void fieldNoteUnknown() { fieldNear = true; }
+#else
+void fieldNote(float distance, float way, float beside, bool counts) {}
+void fieldNoteUnknown() {}
+#endif
+
 void fieldOffer(uint firstMap, int index, vec3 direction, inout float most, inout int best) {
   const float cosine = dot(fieldMaps[firstMap + uint(index)].xyz, direction);
   if (cosine > most) {
@@ -74,6 +91,22 @@ FieldEntry fieldEntry(uint firstMap, vec3 point, vec3 direction) {
   return entry;
 }
 
+// Point of the unit disc that stands for the way from a position to `aim`: fieldTangent() and fieldBitangent() of the normal, written out.
+vec3 fieldLocal(vec3 position, vec3 aim) {
+  const vec3 z = -position, v = aim - position;
+  const float s = z.z >= 0.0 ? 1.0 : -1.0;
+  const float w = -(z.x * v.x + z.y * v.y) / (s + z.z) - v.z;
+  return inversesqrt(dot(v, v)) * vec3(v.x + s * z.x * w, s * v.y + z.y * w, dot(z, v));
+}
+
+// As fieldEntry(), but from the nearest position to a point within the sphere: where the ray is likely to meet the object.
+FieldEntry fieldAimedEntry(uint firstMap, vec3 point, vec3 aim) {
+  FieldEntry entry;
+  entry.map = int(firstMap) + fieldNearestPosition(firstMap, point);
+  entry.texel = fieldTexel(fieldLocal(fieldMaps[entry.map].xyz, aim), FIELD_SIDE, FIELD_DIRECTION_FORM);
+  return entry;
+}
+
 vec3 fieldToObject(FieldObject object, vec3 v) {
   return vec3(dot(object.axisX.xyz, v), dot(object.axisY.xyz, v), dot(object.axisZ.xyz, v));
 }
@@ -101,15 +134,18 @@ FieldPassage fieldPassage(FieldObject object, vec3 origin, vec3 direction) {
 struct FieldHit {
   float distance;  // kFieldNothing: none
   FieldEntry entry;  // of the field, if the ray meets the sphere
-  bool inside;       // the sphere
+  bool inside;       // looked up on the way back
 };
 
 // From inside its sphere the field tells what is met first on the way
 // back from where the ray leaves: the ray is blocked if that lies before the origin by more than `slack` diameters, and the
-// distance is the farthest that the blocker can be.
+// distance is the farthest that the blocker can be. FIELD_AIMED: positions are asked for the direction to where the ray is likely to meet
+// the object, and from inside also on the way from where the ray's line enters, which meets the nearest first, if nothing lies behind the
+// origin.
 FieldHit fieldHit(FieldObject object, vec3 origin, vec3 direction, float slack) {
   FieldHit hit;
   hit.distance = kFieldNothing;
+  fieldUse(object);
   const FieldPassage passage = fieldPassage(object, origin, direction);
   if (!(passage.leave > max(passage.entry, 0.0))) return hit;
   ++fieldLookUps;
@@ -117,16 +153,35 @@ FieldHit fieldHit(FieldObject object, vec3 origin, vec3 direction, float slack) 
   const vec3 middle = fieldToObject(object, passage.middle);
   hit.inside = passage.entry < 0.0;
   const vec3 point = normalize(middle + (hit.inside ? passage.halfLength : -passage.halfLength) * way);
+#ifdef FIELD_AIMED
+  const vec3 aim = (hit.inside ? fieldToObject(object, origin - object.centre) : middle) / object.radius;
+  hit.entry = fieldAimedEntry(object.firstMap, point, aim);
+#else
   hit.entry = fieldEntry(object.firstMap, point, hit.inside ? -way : way);
+#endif
   const float share = fieldShare(hit.entry.map, hit.entry.texel);
   if (share < 0.0) return hit;
   const float fromSphere = 2.0 * object.radius * share;
   if (!hit.inside) {
     hit.distance = passage.entry + fromSphere;
+    fieldNote(hit.distance / object.radius, 2.0 * share, 1.0, true);
     return hit;
   }
   const float before = passage.leave - fromSphere;
-  if (before > 2.0 * object.radius * slack) hit.distance = before;
+  const bool blocks = before > 2.0 * object.radius * slack;
+  fieldNote(before / object.radius, 2.0 * share, 1.0, blocks || slack == 0.0);
+  if (!blocks) return hit;
+  hit.distance = before;
+#ifdef FIELD_AIMED
+  ++fieldLookUps;
+  const FieldEntry entry = fieldAimedEntry(object.firstMap, normalize(middle - passage.halfLength * way), aim);
+  const float shareAhead = fieldShare(entry.map, entry.texel), ahead = passage.entry + 2.0 * object.radius * shareAhead;
+  if (shareAhead >= 0.0 && ahead > 2.0 * object.radius * slack && ahead < before) {
+    hit.distance = ahead;
+    hit.entry = entry;
+    hit.inside = false;  // seen from the side that the ray comes from
+  }
+#endif
   return hit;
 }
 
@@ -135,7 +190,7 @@ float fieldDistance(uint index, vec3 origin, vec3 direction, float slack) {
   return fieldHit(fieldObjects[index], origin, direction, slack).distance;
 }
 
-#if FIELD_DISTANCE_BITS < FIELD_BITS
+#if !defined(FIELD_VARIED) && FIELD_DISTANCE_BITS < FIELD_BITS
 // Normal where a ray meets the object, in the world, on the side that the ray comes from.
 vec3 fieldNormalAt(FieldObject object, FieldHit hit) {
   const vec3 n = fieldHitNormal(hit.entry.map, hit.entry.texel);

@@ -14,21 +14,15 @@ struct FieldView {
   float radius, slack;  // slack: radii
   int firstMap;
 };
+// Until the next one: of its object is what is looked up.
 FieldView fieldView(FieldObject object, vec3 origin, float slack) {
+  fieldUse(object);
   return FieldView(fieldToObject(object, origin - object.centre) / object.radius, object.radius, 2.0 * slack, int(object.firstMap));
 }
 
 // asin to 7e-5 (Abramowitz and Stegun 4.4.45): a hundredth of the distance between positions at most.
 vec3 fieldAngles(vec3 x) {
   return 1.5707963 - sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
-}
-
-// Point of the unit disc that stands for the way from a position to `aim`: fieldTangent() and fieldBitangent() of the normal, written out.
-vec3 fieldLocal(vec3 position, vec3 aim) {
-  const vec3 z = -position, v = aim - position;
-  const float s = z.z >= 0.0 ? 1.0 : -1.0;
-  const float w = -(z.x * v.x + z.y * v.y) / (s + z.z) - v.z;
-  return inversesqrt(dot(v, v)) * vec3(v.x + s * z.x * w, s * v.y + z.y * w, dot(z, v));
 }
 
 // As fieldPlace(), the angle to 1e-5 (Abramowitz and Stegun 4.4.49): a thousandth of a texel.
@@ -47,17 +41,22 @@ vec2 fieldSeenPlace(vec3 local) {
 // Where the ray is looked up, and what the codes there mean.
 struct FieldAsk {
   vec3 aim;
+  float reach;        // of the aim from where the ray meets the sphere, in radii
   float from, along;  // of a distance, in radii: from + along * 2 * share
   float least;        // of it, to count
 };
 
-float fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+// x: share that is let through; y: 1 if nothing is met that counts, 0 otherwise. Of neighbours: weighed means.
+vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
   const float distance = ask.from + 2.0 * ask.along * share;
-  return share < 0.0 || distance <= ask.least ? 1.0 : seenAt(view.radius * distance);
+  if (share < 0.0) return vec2(1.0);
+  const bool blocks = distance > ask.least;
+  fieldNote(distance, 2.0 * share, abs(1.0 - 2.0 * share / ask.reach), blocks || view.slack == 0.0);
+  return blocks ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
 }
 
-float fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
+vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   vec3 local = fieldLocal(fieldMaps[map].xyz, ask.aim);
 #if FIELD_FETCH == 3
   const vec2 place = float(FIELD_SIDE) * fieldSeenPlace(local) - 0.5;
@@ -82,22 +81,8 @@ int fieldCornerMap(FieldView view, vec3 point, ivec2 at) {
 }
 #endif
 
-// Share of a ray that the object lets through. `direction`: unit, in the object's axes.
-float fieldSeen(FieldView view, vec3 direction) {
-  const float along = -dot(view.origin, direction);
-  const vec3 middle = view.origin + along * direction;
-  const float squared = 1.0 - dot(middle, middle);
-  if (!(squared > 0.0)) return 1.0;
-  const float halfLength = sqrt(squared), leave = along + halfLength, entry = along - halfLength;
-  if (!(leave > 0.0)) return 1.0;
-  ++fieldLookUps;
-  const bool inside = entry < 0.0;
-  const vec3 point = middle + (inside ? halfLength : -halfLength) * direction;
-  FieldAsk ask;
-  ask.aim = inside ? view.origin : middle;
-  ask.from = inside ? leave : entry;
-  ask.along = inside ? -1.0 : 1.0;
-  ask.least = inside ? view.slack : -1.0;
+// Share that the positions around a point of the sphere let through.
+vec2 fieldSeenAround(FieldView view, FieldAsk ask, vec3 point) {
 #if FIELD_POSITION_FORM != 0
   return fieldSeenFrom(view, ask, view.firstMap + fieldNearestPosition(uint(view.firstMap), normalize(point)));
 #else
@@ -115,10 +100,37 @@ float fieldSeen(FieldView view, vec3 direction) {
 #else
   // Rounded, a point on an octant's border may seem to be beyond it, where no corners are.
   const vec3 counted = cell.x + cell.y < FIELD_SEGMENTS ? weights : vec3(1.0, 0.0, 0.0);
-  float sum = counted.x * fieldSeenFrom(view, ask, fieldCornerMap(view, point, first));
+  vec2 sum = counted.x * fieldSeenFrom(view, ask, fieldCornerMap(view, point, first));
   if (counted.y > 0.0) sum += counted.y * fieldSeenFrom(view, ask, fieldCornerMap(view, point, second));
   if (counted.z > 0.0) sum += counted.z * fieldSeenFrom(view, ask, fieldCornerMap(view, point, third));
   return sum / (counted.x + counted.y + counted.z);
 #endif
 #endif
+}
+
+// Share of a ray that the object lets through. `direction`: unit, in the object's axes.
+float fieldSeen(FieldView view, vec3 direction) {
+  const float along = -dot(view.origin, direction);
+  const vec3 middle = view.origin + along * direction;
+  const float squared = 1.0 - dot(middle, middle);
+  if (!(squared > 0.0)) return 1.0;
+  const float halfLength = sqrt(squared), leave = along + halfLength, entry = along - halfLength;
+  if (!(leave > 0.0)) return 1.0;
+  ++fieldLookUps;
+  const bool inside = entry < 0.0;
+  FieldAsk ask;
+  ask.aim = inside ? view.origin : middle;
+  ask.reach = inside ? leave : halfLength;
+  ask.from = inside ? leave : entry;
+  ask.along = inside ? -1.0 : 1.0;
+  ask.least = inside ? view.slack : -1.0;
+  const vec2 back = fieldSeenAround(view, ask, middle + (inside ? halfLength : -halfLength) * direction);
+  if (!(inside && back.x > back.y)) return back.x;
+  // What blocks lets through by its distance, which is the farthest that it can be. On the way from where the ray's line enters the
+  // sphere the nearest is met first, if nothing lies behind the origin. Of the neighbours only those that are blocked are in question.
+  ++fieldLookUps;
+  ask.reach = -entry, ask.from = entry, ask.along = 1.0;
+  const vec2 ahead = fieldSeenAround(view, ask, middle - halfLength * direction);
+  if (ahead.y > 0.999999) fieldNoteUnknown();  // rounded
+  return back.y + min(back.x - back.y, (1.0 - back.y) * ahead.x);
 }

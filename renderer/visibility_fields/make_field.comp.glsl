@@ -24,7 +24,8 @@ vec3 hitNormal(RayHit hit, vec3 direction) {
   return dot(vec3(a.w, b.w, c.w), direction) > 0.0 ? -normal : normal;
 }
 #endif
-uniform int firstMap;  // the object's
+uniform int firstMap;                // the object's
+uniform int firstTile, firstSlice;  // of its words
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
 
@@ -66,7 +67,7 @@ void main() {
 #endif
   }
   if (rayCutShort) atomicAdd(cutShort, 1u);
-  imageStore(fieldWords, fieldWordPlace(firstMap + map, word, kTile, FIELD_SLICE_SIDE), uvec4(bits));
+  imageStore(fieldWords, fieldWordPlace(firstTile + map, word, kTile, FIELD_SLICE_SIDE) + ivec3(0, 0, firstSlice), uvec4(bits));
 #if FIELD_BITS == 1
   sums[map * kTile.x * kTile.y + number] = sum;
 #endif

@@ -72,6 +72,7 @@ RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& pos
       if (fresh && !normals.empty()) object.normals.push_back(normals[triangle[corner]]);
       mine[corner] = at->second;
     }
+    object.numbers.push_back(static_cast<uint32_t>(object.triangles.size()));
     object.triangles.push_back(mine);
   }
   object.sphere = boundingSphere(used);
@@ -135,6 +136,8 @@ RigidObjects rigidObjectsOf(const scene::Scene& scene, const ObjectSetting& sett
       RigidObject object = makeRigidObject(part.name, scene.mesh.positions, triangles, scene.mesh.normals);
       if (!(object.sphere.radius > 0.0)) continue;
       object.albedo = scene.materials[part.material].albedo;
+      object.numbers = numbers;
+      object.part = static_cast<uint32_t>(&part - scene.parts.data());
       object.owner = static_cast<uint32_t>(out.objects.size());
       for (const uint32_t i : numbers) out.objectOf[i] = object.owner;
       out.objects.push_back(std::move(object));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace limen::visibility_fields {
@@ -12,7 +13,10 @@ namespace {
 struct Corner {
   glm::dvec3 position, normal;  ///< in units of the object's sphere; no normal: 0
 };
-using Facet = std::array<Corner, 3>;
+struct Facet {
+  std::array<Corner, 3> corners;
+  uint32_t number;  ///< of the triangle that it is of
+};
 struct Piece {
   std::vector<Facet> facets;
   Sphere sphere;
@@ -21,7 +25,7 @@ struct Piece {
 Piece pieceOf(std::vector<Facet> facets) {
   std::vector<glm::dvec3> points;
   for (const Facet& facet : facets)
-    for (const Corner& corner : facet) points.push_back(corner.position);
+    for (const Corner& corner : facet.corners) points.push_back(corner.position);
   return {std::move(facets), boundingSphere(points)};
 }
 
@@ -31,7 +35,7 @@ glm::dvec3 longestAxis(const std::vector<Facet>& facets) {
   glm::dvec3 middle(0.0);
   glm::dmat3 moments(0.0);
   for (const Facet& f : facets) {
-    const glm::dvec3 a = f[0].position, b = f[1].position, c = f[2].position, centre = (a + b + c) / 3.0;
+    const glm::dvec3 a = f.corners[0].position, b = f.corners[1].position, c = f.corners[2].position, centre = (a + b + c) / 3.0;
     const double weight = 0.5 * glm::length(glm::cross(b - a, c - a));
     area += weight, middle += weight * centre;
     // Of a triangle: area / 12 (a a' + b b' + c c' + 9 centre centre').
@@ -64,29 +68,31 @@ void appendCut(const Facet& facet, const std::array<double, 3>& heights, double 
   for (size_t i = 0; i < 3; ++i) {
     const size_t next = (i + 1) % 3;
     const double here = side * heights[i], there = side * heights[next];
-    if (here >= 0.0) polygon.push_back(facet[i]);
+    if (here >= 0.0) polygon.push_back(facet.corners[i]);
     if ((here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0)) {
       // The same place from both sides of the edge and of the plane.
       const bool forward = heights[i] < heights[next];
       const double low = forward ? heights[i] : heights[next], high = forward ? heights[next] : heights[i];
-      polygon.push_back(between(facet[forward ? i : next], facet[forward ? next : i], low / (low - high)));
+      polygon.push_back(
+          between(facet.corners[forward ? i : next], facet.corners[forward ? next : i], low / (low - high)));
     }
   }
-  for (size_t i = 2; i < polygon.size(); ++i) out.push_back({polygon[0], polygon[i - 1], polygon[i]});
+  for (size_t i = 2; i < polygon.size(); ++i) 
+    out.push_back({{polygon[0], polygon[i - 1], polygon[i]}, facet.number});
 }
 
 std::pair<std::vector<Facet>, std::vector<Facet>> halves(const std::vector<Facet>& facets) {
   const glm::dvec3 axis = longestAxis(facets);
   double low = 1e300, high = -1e300;
   for (const Facet& facet : facets)
-    for (const Corner& corner : facet) {
+    for (const Corner& corner : facet.corners) {
       const double along = glm::dot(axis, corner.position);
       low = std::min(low, along), high = std::max(high, along);
     }
   std::pair<std::vector<Facet>, std::vector<Facet>> out;
   for (const Facet& facet : facets) {
     std::array<double, 3> heights{};
-    for (size_t i = 0; i < 3; ++i) heights[i] = glm::dot(axis, facet[i].position) - 0.5 * (low + high);
+    for (size_t i = 0; i < 3; ++i) heights[i] = glm::dot(axis, facet.corners[i].position) - 0.5 * (low + high);
     const bool flat = heights == std::array<double, 3>{};
     appendCut(facet, heights, 1.0, out.first);
     if (!flat) appendCut(facet, heights, -1.0, out.second);
@@ -98,15 +104,18 @@ RigidObject objectOf(const Piece& piece, const RigidObject& whole) {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<glm::uvec3> triangles;
+  std::vector<uint32_t> numbers;
   for (const Facet& facet : piece.facets) {
+    numbers.push_back(facet.number);
     triangles.push_back(glm::uvec3(0, 1, 2) + static_cast<uint32_t>(positions.size()));
-    for (const Corner& corner : facet) {
+    for (const Corner& corner : facet.corners) {
       positions.push_back(whole.sphere.centre + whole.sphere.radius * corner.position);
       if (!whole.normals.empty()) normals.emplace_back(corner.normal);
     }
   }
   RigidObject out = makeRigidObject(whole.name, positions, triangles, normals);
-  out.albedo = whole.albedo, out.owner = whole.owner;
+  out.albedo = whole.albedo, out.part = whole.part, out.owner = whole.owner;
+  out.numbers = std::move(numbers);
   return out;
 }
 
@@ -115,10 +124,11 @@ RigidObject objectOf(const Piece& piece, const RigidObject& whole) {
 std::vector<RigidObject> coverWithSpheres(const RigidObject& object, int spheres) {
   if (spheres <= 1) return {object};
   std::vector<Facet> facets;
-  for (const glm::uvec3 t : object.triangles) {
-    Facet facet;
+  for (size_t number = 0; number < object.triangles.size(); ++number) {
+    const glm::uvec3 t = object.triangles[number];
+    Facet facet{{}, object.numbers[number]};
     for (int i = 0; i < 3; ++i)
-      facet[static_cast<size_t>(i)] = {
+      facet.corners[static_cast<size_t>(i)] = {
           glm::dvec3(object.vertices[t[i]]),
           object.normals.empty() ? glm::dvec3(0.0) : glm::dvec3(object.normals[t[i]])};
     facets.push_back(facet);

@@ -11,6 +11,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/ray_tracing/ray_tracing_bindings.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/field_store.h"
 #include "renderer/visibility_fields/field_words.h"
@@ -52,78 +53,124 @@ std::vector<glm::vec4> cornersOf(const RigidObject& object) {
   return corners;
 }
 
-std::vector<glm::vec4> repeated(const std::vector<glm::vec3>& points, size_t times) {
+std::vector<glm::vec4> mapsOf(const FieldForm& form) {
   std::vector<glm::vec4> out;
-  out.reserve(points.size() * times);
-  for (size_t i = 0; i < times; ++i)
-    for (const glm::vec3 p : points) out.emplace_back(p, 0.0F);
+  const PositionMap map(form.positionMap, form.positions);
+  for (const glm::vec3 p : map.points()) out.emplace_back(p, 0.0F);
   return out;
+}
+
+bool sameForm(const FieldForm& a, const FieldForm& b) {
+  return a.positionMap == b.positionMap && a.positions == b.positions && a.directionMap == b.directionMap &&
+         a.directions == b.directions && a.bits == b.bits && a.distanceBits == b.distanceBits;
 }
 
 }  // namespace
 
+void VisibilityFields::plan(const std::vector<FieldForm>& forms) {
+  first_ = forms.empty() ? FieldForm() : forms[0];
+  for (const FieldForm& form : forms) varied_ = varied_ || !sameForm(form, first_);
+  int64_t maps = 0;
+  for (const FieldForm& form : forms) {
+    const PositionMap positions(form.positionMap, form.positions);
+    kept_.push_back({form, positions.segments(), static_cast<int>(maps),
+                     static_cast<int>(positions.points().size()), varied_ ? 0 : static_cast<int>(maps), 0});
+    maps += kept_.back().maps;
+  }
+  int64_t slices = 0;
+  const auto slicesOf = [&](const FieldForm& form, int64_t count) {
+    const int64_t each = mapsPerSlice(sliceSide_, tileOf(form));
+    return (count + each - 1) / each;
+  };
+  if (!varied_) {
+    sliceSide_ = sliceSideFor(maps, tileOf(first_));
+    slices = slicesOf(first_, maps);
+  } else {
+    for (const Kept& kept : kept_)
+      sliceSide_ = std::max(sliceSide_, std::max(tileOf(kept.form).x, tileOf(kept.form).y));
+    const auto place = [&] {
+      slices = 0;
+      for (Kept& kept : kept_) kept.firstSlice = static_cast<int>(slices), slices += slicesOf(kept.form, kept.maps);
+    };
+    place();
+    while (sliceSide_ < kLargestSlice && slices > kMostSlices) sliceSide_ *= 2, place();
+  }
+  if (slices > kMostSlices)
+    throw Error(
+        "fields of " + std::to_string(objectCount_) + " objects take " + std::to_string(bytes()) + " bytes",
+        "directions", "store fewer positions, directions or bits");
+  slices_ = static_cast<int>(std::max<int64_t>(slices, 1));
+}
+
 VisibilityFields::VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects,
-                                   const FieldForm& form, int tolerance, const std::string& folder)
-    : form_(form),
-      positionMap_(form.positionMap, form.positions),
-      objectCount_(static_cast<uint32_t>(objects.size())),
-      sliceSide_(sliceSideFor(int64_t{mapsPerObject()} * objectCount_, tileOf(form))),
-      maps_(repeated(positionMap_.points(), objects.size())),
+                                   const std::vector<FieldForm>& forms, int tolerance,
+                                   const std::string& folder)
+    : objectCount_(static_cast<uint32_t>(objects.size())),
       objects_(static_cast<int64_t>(objects.size() * sizeof(FieldObject)), nullptr) {
   for (const RigidObject& object : objects) {
     owners_.push_back(object.owner);
     albedos_.push_back(glm::packUnorm4x8(glm::vec4(object.albedo, 0.0F)));
   }
-  const int64_t maps = int64_t{mapsPerObject()} * objectCount_, each = mapsPerSlice(sliceSide_, tileOf(form));
-  const int64_t slices = std::max<int64_t>((maps + each - 1) / each, 1);
-  if (slices > kMostSlices)
-    throw Error(
-        "fields of " + std::to_string(objectCount_) + " objects take " + std::to_string(bytes()) + " bytes",
-        "directions", "store fewer positions, directions or bits");
-  words_.emplace(gl::Format::R32UI, glm::ivec2(sliceSide_), 1, static_cast<int>(slices));
+  plan(forms);
+  std::vector<glm::vec4> maps;
+  for (const Kept& kept : kept_) {
+    const std::vector<glm::vec4> own = mapsOf(kept.form);
+    maps.insert(maps.end(), own.begin(), own.end());
+  }
+  maps_.emplace(maps);
+  words_.emplace(gl::Format::R32UI, glm::ivec2(sliceSide_), 1, slices_);
   fieldsRead_ = readOrMake(context, objects, folder);
-  if (tolerance > 0 && form_.bits == 8) lengthen(tolerance);
+  if (tolerance > 0) lengthen(tolerance);
   std::vector<Pose> poses;
   for (const RigidObject& object : objects) poses.push_back(poseOf(object));
   place(poses, glm::dvec3(0.0));
 }
 
 gl::ShaderDefines VisibilityFields::defines() const {
-  gl::ShaderDefines defines = form_.defines();
+  gl::ShaderDefines defines = first_.defines();
   defines["FIELD_SLICE_SIDE"] = std::to_string(sliceSide_);
+  if (!varied_) return defines;
+  defines["FIELD_VARIED"] = "1";
+  defines["FIELD_SEGMENTS"] = "fieldSegments", defines["FIELD_SIDE"] = "fieldSide";
+  defines["FIELD_BITS"] = defines["FIELD_DISTANCE_BITS"] = "fieldBits";
+  defines["FIELD_POSITIONS"] = "fieldPositions";
   return defines;
 }
 
 void VisibilityFields::make(gl::Context& context, const RigidObject& object, uint32_t index) const {
-  const gl::ShaderDefines defines = this->defines();
+  const Kept& kept = kept_[index];
+  gl::ShaderDefines defines = kept.form.defines();
+  defines["FIELD_SLICE_SIDE"] = std::to_string(sliceSide_);
   const gl::Program& program =
       context.programs().compute("renderer/visibility_fields/make_field.comp.glsl", defines);
   const ray_tracing::RayScene rays(context, object.vertices, object.triangles);
-  const glm::ivec2 tile = tileOf(form_);
-  const int wordsPerMap = tile.x * tile.y, firstMap = static_cast<int>(index) * mapsPerObject();
+  const glm::ivec2 tile = tileOf(kept.form);
+  const int wordsPerMap = tile.x * tile.y;
   const gl::Buffer cutShort(std::vector<uint32_t>{0});
   std::optional<gl::Buffer> sums, corners;
-  if (form_.distanceBits > 0) corners.emplace(cornersOf(object));
-  if (form_.bits == 1) sums.emplace(int64_t{8} * wordsPerMap * mapsPerObject(), nullptr);
+  if (kept.form.distanceBits > 0) corners.emplace(cornersOf(object));
+  if (kept.form.bits == 1) sums.emplace(int64_t{8} * wordsPerMap * kept.maps, nullptr);
   rays.bind(program);
-  maps_.bindStorage(kFieldMapsBuffer);
+  maps_->bindStorage(kFieldMapsBuffer);
   cutShort.bindStorage(kFieldCutShortBuffer);
   if (sums) sums->bindStorage(kFieldSumsBuffer);
   if (corners) corners->bindStorage(kFieldCornersBuffer);
   words_->bindImage(kFieldWordsImage, gl::Access::Write);
-  program.set("firstMap", firstMap);
-  program.dispatch({wordsPerMap, mapsPerObject()}, {kFieldMakeGroup, 1});
+  program.set("firstMap", kept.firstMap);
+  program.set("firstTile", kept.firstTile);
+  program.set("firstSlice", kept.firstSlice);
+  program.dispatch({wordsPerMap, kept.maps}, {kFieldMakeGroup, 1});
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   if (sums) {
     const gl::Program& mean =
         context.programs().compute("renderer/visibility_fields/mean_distances.comp.glsl");
-    maps_.bindStorage(kFieldMapsBuffer);
+    maps_->bindStorage(kFieldMapsBuffer);
     sums->bindStorage(kFieldSumsBuffer);
-    mean.set("firstMap", firstMap);
-    mean.set("mapCount", mapsPerObject());
+    mean.set("firstMap", kept.firstMap);
+    mean.set("mapCount", kept.maps);
     mean.set("wordsPerMap", wordsPerMap);
-    mean.dispatch({mapsPerObject(), 1}, {kFieldMakeGroup, 1});
+    mean.dispatch({kept.maps, 1}, {kFieldMakeGroup, 1});
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
   if (cutShort.read<uint32_t>()[0] > 0)
@@ -131,38 +178,58 @@ void VisibilityFields::make(gl::Context& context, const RigidObject& object, uin
                 "use fewer bits of a simpler object, or a GPU");
 }
 
+Pose VisibilityFields::moved(const Pose& pose, const glm::dmat4& motion) {
+  const glm::dmat3 turn(motion);
+  const double scale = glm::length(turn[0]);
+  return {turn / scale * pose.axes, glm::dvec3(motion * glm::dvec4(pose.centre, 1.0)), scale * pose.radius};
+}
+
 void VisibilityFields::place(const std::vector<Pose>& poses, glm::dvec3 anchor) {
-  std::vector<FieldObject> objects;
+  placed_.clear();
   for (const Pose& pose : poses) {
+    const size_t number = placed_.size();
     FieldObject object{};
     object.centre = pose.centre - anchor;
     object.radius = static_cast<float>(pose.radius);
-    object.axisX = glm::vec4(pose.axes[0], 0.0), object.axisY = glm::vec4(pose.axes[1], 0.0);
-    object.axisZ = glm::vec4(pose.axes[2], 0.0);
-    object.owner = owners_[objects.size()], object.albedo = albedos_[objects.size()];
-    object.firstMap = static_cast<uint32_t>(objects.size()) * static_cast<uint32_t>(mapsPerObject());
-    objects.push_back(object);
+    const Kept& kept = kept_[number];
+    // Whole numbers below 2^24, which floats hold.
+    const auto form = static_cast<float>(kept.segments | kept.form.directions << 8 | kept.form.bits << 17);
+    object.axisX = glm::vec4(pose.axes[0], form);
+    object.axisY = glm::vec4(pose.axes[1], static_cast<float>(kept.firstSlice));
+    object.axisZ = glm::vec4(pose.axes[2], static_cast<float>(kept.maps));
+    object.owner = owners_[number], object.albedo = albedos_[number];
+    object.firstMap = static_cast<uint32_t>(kept.firstMap);
+    object.root = roots_.empty() ? ray_tracing::kRayNoRoot : roots_[number];
+    placed_.push_back(object);
   }
-  if (!objects.empty())
-    objects_.write(0, static_cast<int64_t>(objects.size() * sizeof(FieldObject)), objects.data());
+  if (!placed_.empty())
+    objects_.write(0, static_cast<int64_t>(placed_.size() * sizeof(FieldObject)), placed_.data());
 }
 
 void VisibilityFields::bind(const gl::Program& program) const {
   objects_.bindStorage(kFieldObjectsBuffer);
-  maps_.bindStorage(kFieldMapsBuffer);
+  maps_->bindStorage(kFieldMapsBuffer);
   words_->bindTexture(kFieldWordsUnit);
   program.set("fieldObjectCount", objectCount_);
 }
 
 int64_t VisibilityFields::rayCount() const {
-  return int64_t{mapsPerObject()} * objectCount_ * form_.directions * form_.directions;
+  int64_t rays = 0;
+  for (const Kept& kept : kept_) rays += int64_t{kept.maps} * kept.form.directions * kept.form.directions;
+  return rays;
+}
+
+int64_t VisibilityFields::words(const Kept& kept) const {
+  return int64_t{kept.maps} * kept.form.wordsPerRow() * kept.form.directions;
 }
 
 int64_t VisibilityFields::bytes() const {
-  return int64_t{4} * mapsPerObject() * objectCount_ * form_.wordsPerRow() * form_.directions;
+  int64_t bytes = 0;
+  for (const Kept& kept : kept_) bytes += int64_t{4} * words(kept);
+  return bytes;
 }
 
-int64_t VisibilityFields::bytesHeld() const { return words_->bytes() + maps_.bytes() + objects_.bytes(); }
+int64_t VisibilityFields::bytesHeld() const { return words_->bytes() + maps_->bytes() + objects_.bytes(); }
 
 int64_t VisibilityFields::runLengthBytes() const {
   int64_t bytes = 0;
@@ -180,19 +247,18 @@ uint32_t VisibilityFields::readOrMake(gl::Context& context, const std::vector<Ri
     return 0;
   }
   const FieldStore store(folder, context.device().line());
-  const glm::ivec2 tile = tileOf(form_);
-  const auto words = static_cast<size_t>(mapsPerObject()) * static_cast<size_t>(tile.x * tile.y),
-             means = static_cast<size_t>(form_.bits == 1 ? mapsPerObject() : 0);
   std::vector<std::vector<uint32_t>> found(objectCount_);
   uint32_t count = 0;
   for (uint32_t i = 0; i < objectCount_; ++i) {
-    const std::string path = store.path(objects[i], form_);
-    if (std::optional<StoredField> field = store.read(path, words, means)) {
+    const Kept& kept = kept_[i];
+    const std::string path = store.path(objects[i], kept.form);
+    const size_t means = static_cast<size_t>(kept.form.bits == 1 ? kept.maps : 0);
+    if (std::optional<StoredField> field = store.read(path, static_cast<size_t>(words(kept)), means)) {
       found[i] = std::move(field->words), ++count;
-      std::vector<glm::vec4> maps = repeated(positionMap_.points(), 1);
+      std::vector<glm::vec4> maps = mapsOf(kept.form);
       for (size_t map = 0; map < field->means.size(); ++map) maps[map].w = field->means[map];
       const auto bytes = static_cast<int64_t>(maps.size() * sizeof(glm::vec4));
-      maps_.write(bytes * i, bytes, maps.data());
+      maps_->write(static_cast<int64_t>(sizeof(glm::vec4)) * kept.firstMap, bytes, maps.data());
       continue;
     }
     make(context, objects[i], i);
@@ -204,15 +270,15 @@ uint32_t VisibilityFields::readOrMake(gl::Context& context, const std::vector<Ri
 
 std::vector<float> VisibilityFields::readMeans(uint32_t object) const {
   std::vector<float> means;
-  if (form_.bits == 1)
-    for (const glm::vec4 map : maps_.read<glm::vec4>(
-             static_cast<int64_t>(sizeof(glm::vec4)) * mapsPerObject() * object, mapsPerObject()))
+  const Kept& kept = kept_[object];
+  if (kept.form.bits == 1)
+    for (const glm::vec4 map :
+         maps_->read<glm::vec4>(static_cast<int64_t>(sizeof(glm::vec4)) * kept.firstMap, kept.maps))
       means.push_back(map.w);
   return means;
 }
 
 void VisibilityFields::writeWords(const std::vector<std::vector<uint32_t>>& ofObjects) const {
-  const glm::ivec2 tile = tileOf(form_);
   const auto side = static_cast<size_t>(sliceSide_);
   const auto slices = static_cast<size_t>(words_->bytes()) / (sizeof(uint32_t) * side * side);
   std::vector<std::vector<uint32_t>> texels;
@@ -220,12 +286,14 @@ void VisibilityFields::writeWords(const std::vector<std::vector<uint32_t>>& ofOb
     texels.push_back(words_->readUintLayer(static_cast<int>(slice)));
   for (size_t object = 0; object < ofObjects.size(); ++object) {
     if (ofObjects[object].empty()) continue;
+    const Kept& kept = kept_[object];
+    const glm::ivec2 tile = tileOf(kept.form);
     size_t next = 0;
-    for (int map = 0; map < mapsPerObject(); ++map)
+    for (int map = 0; map < kept.maps; ++map)
       for (int y = 0; y < tile.y; ++y)
         for (int x = 0; x < tile.x; ++x) {
-          const glm::ivec3 at =
-              fieldWordPlace(static_cast<int>(object) * mapsPerObject() + map, {x, y}, tile, sliceSide_);
+          const glm::ivec3 at = fieldWordPlace(kept.firstTile + map, {x, y}, tile, sliceSide_) +
+                                glm::ivec3(0, 0, kept.firstSlice);
           texels[static_cast<size_t>(at.z)][static_cast<size_t>(at.y) * side + static_cast<size_t>(at.x)] =
               ofObjects[object][next++];
         }
@@ -236,6 +304,7 @@ void VisibilityFields::writeWords(const std::vector<std::vector<uint32_t>>& ofOb
 void VisibilityFields::lengthen(int tolerance) const {
   std::vector<std::vector<uint32_t>> changed(objectCount_);
   for (uint32_t object = 0; object < objectCount_; ++object) {
+    if (kept_[object].form.bits != 8) continue;
     std::vector<uint32_t> words = readWords(object);
     lengthenRuns({reinterpret_cast<uint8_t*>(words.data()), words.size() * sizeof(uint32_t)}, tolerance,
                  static_cast<uint8_t>(fieldMissCode(8)));
@@ -245,15 +314,16 @@ void VisibilityFields::lengthen(int tolerance) const {
 }
 
 std::vector<uint32_t> VisibilityFields::readWords(uint32_t object) const {
-  const glm::ivec2 tile = tileOf(form_);
+  const Kept& kept = kept_[object];
+  const glm::ivec2 tile = tileOf(kept.form);
   std::vector<uint32_t> out;
   std::vector<uint32_t> slice;
   int held = -1;
-  for (int map = 0; map < mapsPerObject(); ++map)
+  for (int map = 0; map < kept.maps; ++map)
     for (int y = 0; y < tile.y; ++y)
       for (int x = 0; x < tile.x; ++x) {
-        const glm::ivec3 at =
-            fieldWordPlace(static_cast<int>(object) * mapsPerObject() + map, {x, y}, tile, sliceSide_);
+        const glm::ivec3 at = fieldWordPlace(kept.firstTile + map, {x, y}, tile, sliceSide_) +
+                              glm::ivec3(0, 0, kept.firstSlice);
         if (at.z != held) slice = words_->readUintLayer(at.z), held = at.z;
         out.push_back(
             slice[static_cast<size_t>(at.y) * static_cast<size_t>(sliceSide_) + static_cast<size_t>(at.x)]);
@@ -263,30 +333,32 @@ std::vector<uint32_t> VisibilityFields::readWords(uint32_t object) const {
 
 std::vector<float> VisibilityFields::readShares(uint32_t object) const {
   const std::vector<uint32_t> words = readWords(object);
-  const auto maps = maps_.read<glm::vec4>(static_cast<int64_t>(sizeof(glm::vec4)) * mapsPerObject() * object,
-                                          mapsPerObject());
-  const int perWord = 32 / form_.bits;
+  const Kept& kept = kept_[object];
+  const FieldForm& form = kept.form;
+  const auto maps =
+      maps_->read<glm::vec4>(static_cast<int64_t>(sizeof(glm::vec4)) * kept.firstMap, kept.maps);
+  const int perWord = 32 / form.bits;
   std::vector<float> out;
-  for (int map = 0; map < mapsPerObject(); ++map)
-    for (int y = 0; y < form_.directions; ++y)
-      for (int x = 0; x < form_.directions; ++x) {
+  for (int map = 0; map < kept.maps; ++map)
+    for (int y = 0; y < form.directions; ++y)
+      for (int x = 0; x < form.directions; ++x) {
         const uint32_t word =
-            words[static_cast<size_t>((map * form_.directions + y) * form_.wordsPerRow() + x / perWord)];
-        if (form_.distanceBits > 0) {
-          const uint32_t code = word & fieldMissCode(form_.distanceBits);
-          out.push_back(code == fieldMissCode(form_.distanceBits)
+            words[static_cast<size_t>((map * form.directions + y) * form.wordsPerRow() + x / perWord)];
+        if (form.distanceBits > 0) {
+          const uint32_t code = word & fieldMissCode(form.distanceBits);
+          out.push_back(code == fieldMissCode(form.distanceBits)
                             ? -1.0F
-                            : float(code) * fieldCodeStep(form_.distanceBits));
+                            : float(code) * fieldCodeStep(form.distanceBits));
           continue;
         }
-        if (form_.bits == 32) {
+        if (form.bits == 32) {
           out.push_back(std::bit_cast<float>(word));
           continue;
         }
-        const uint32_t code = word >> (form_.bits * (x % perWord)) & ((1U << form_.bits) - 1U);
+        const uint32_t code = word >> (form.bits * (x % perWord)) & ((1U << form.bits) - 1U);
         const float share =
-            form_.bits == 1 ? maps[static_cast<size_t>(map)].w : float(code) * fieldCodeStep(form_.bits);
-        out.push_back(code == fieldMissCode(form_.bits) ? -1.0F : share);
+            form.bits == 1 ? maps[static_cast<size_t>(map)].w : float(code) * fieldCodeStep(form.bits);
+        out.push_back(code == fieldMissCode(form.bits) ? -1.0F : share);
       }
   return out;
 }

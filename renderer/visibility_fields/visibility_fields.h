@@ -10,6 +10,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
+#include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/field_form.h"
 #include "renderer/visibility_fields/rigid_objects.h"
 
@@ -30,23 +31,31 @@ class VisibilityFields {
   /// ones are longer; 0: none does. `folder`: where fields are kept (field_store.h), and read from if they
   /// are there; "": nowhere. Throws Error if the device cannot hold them, or the folder not be written.
   VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects, const FieldForm& form,
-                   int tolerance = 0, const std::string& folder = {});
+                   int tolerance = 0, const std::string& folder = {})
+      : VisibilityFields(context, objects, std::vector<FieldForm>(objects.size(), form), tolerance, folder) {}
+  /// A form for each object; they share their maps' forms and have no normals unless all forms are the same.
+  VisibilityFields(gl::Context& context, const std::vector<RigidObject>& objects,
+                   const std::vector<FieldForm>& forms, int tolerance = 0, const std::string& folder = {});
   /// Of the objects, those whose fields were read and not made.
   uint32_t fieldsRead() const { return fieldsRead_; }
 
   /// Where objects stand, relative to `anchor`; one pose an object. They stand where they were made until it
   /// is called, relative to the origin.
   void place(const std::vector<Pose>& poses, glm::dvec3 anchor);
+  /// Roots of the objects' trees in a RayForest, for shaders that trace rays as well; from the next place()
+  /// on.
+  void setRoots(const std::vector<uint32_t>& roots) { roots_ = roots; }
   static Pose poseOf(const RigidObject& object) {
     return {glm::dmat3(1.0), object.sphere.centre, object.sphere.radius};
   }
+  /// Where `motion`, a rotation, a shift and a uniform scale, takes what stands there.
+  static Pose moved(const Pose& pose, const glm::dmat4& motion);
 
   /// Buffers, texture and uniforms of field_lookup.glsl, for the next dispatches of `program`.
   void bind(const gl::Program& program) const;
-  const FieldForm& form() const { return form_; }
+  const FieldForm& form(uint32_t object) const { return kept_[object].form; }
   /// FIELD_* for shaders that read or make these fields.
   gl::ShaderDefines defines() const;
-  const PositionMap& positionMap() const { return positionMap_; }
   uint32_t objectCount() const { return objectCount_; }
   int64_t rayCount() const;  ///< traced to make the fields, unused texels included
   int64_t bytes() const;     ///< of the words themselves, unused parts of slices left out
@@ -68,15 +77,28 @@ class VisibilityFields {
   /// As readWords() gives them; none: left as they are.
   void writeWords(const std::vector<std::vector<uint32_t>>& ofObjects) const;
   std::vector<float> readMeans(uint32_t object) const;
-  int mapsPerObject() const { return static_cast<int>(positionMap_.points().size()); }
 
-  FieldForm form_;
-  PositionMap positionMap_;
+  /// Where an object's field lies.
+  struct Kept {
+    FieldForm form;
+    int segments = 0;
+    int firstMap = 0, maps = 0;         ///< of maps_
+    int firstTile = 0, firstSlice = 0;  ///< of words_
+  };
+  void plan(const std::vector<FieldForm>& forms);
+  int64_t words(const Kept& kept) const;
+
   uint32_t objectCount_, fieldsRead_ = 0;
-  std::vector<uint32_t> owners_, albedos_;
-  int sliceSide_;
+  bool varied_ = false;  ///< several forms: each object begins a slice of its own
+  int slices_ = 1;
+  FieldForm first_;      ///< of the first object
+  std::vector<Kept> kept_;
+  std::vector<uint32_t> owners_, albedos_, roots_;
+  std::vector<FieldObject> placed_;  ///< kept, so that placing allocates nothing
+  int sliceSide_ = 0;
   std::optional<gl::Texture> words_;
-  gl::Buffer maps_, objects_;
+  std::optional<gl::Buffer> maps_;
+  gl::Buffer objects_;
 };
 
 }  // namespace limen::visibility_fields

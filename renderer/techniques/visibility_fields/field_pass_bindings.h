@@ -35,6 +35,15 @@ const uint kVertexValuesBuffer = 2u;  // float a vertex of the scene, techniques
 const uint kFieldCountsBuffer = 5u;  // kFieldCountSlots numbers of look-ups
 const int kFieldCountSlots = 64;
 
+// Receivers near an object, whose rays are traced (NearReceivers).
+const uint kNearListBuffer = 1u;  // NearListHeader, then words: x + 65536 y of a pixel each
+const int kNearGroup = 64;        // invocations that share a pixel's rays
+struct NearListHeader {           // std430
+  uint pixels;                    // of the list that is being written; 0 between frames
+  uint groupsX, groupsY, groupsZ;  // of an indirect dispatch, one for each pixel listed
+  uint listed;
+};
+
 const int kFalloffBinary = 0;
 const int kFalloffLinear = 1;
 const int kFalloffExponential = 2;

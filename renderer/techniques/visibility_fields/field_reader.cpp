@@ -10,7 +10,6 @@
 #include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
-#include "renderer/visibility_fields/cpu_field.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/sphere_cover.h"
 
@@ -241,7 +240,7 @@ void FieldReading::check() const {
                 "fetch", "give fetch: nearest or aimed, or leave out 'position_map' and 'direction_map'");
 }
 
-void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth) {
+void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth, bool trees) {
   const vf::RigidObjects whole = objectsOf(frame, rays.objects);
   std::vector<vf::RigidObject> objects = covered(whole.objects, settings_.use.spheres);
   if (!smooth)
@@ -251,27 +250,56 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  if (const auto* bySize = std::get_if<BySizeDetail>(&settings_.storage.detail))
-    settings_.form = formBySize(settings_.form, objectsSizePx(frame.camera(), frame.sizePx(), objects),
-                                frame.sizePx(), bySize->error);
-  fields_.emplace(frame.context(), objects, settings_.form, settings_.storage.tolerance,
-                  settings_.storage.folder);
+  rest_.clear(), motions_.assign(objects.size(), nullptr);
+  for (const vf::RigidObject& object : objects) rest_.push_back(vf::VisibilityFields::poseOf(object));
+  for (const scene::PartMotion& motion : frame.scene().motions)
+    for (size_t i = 0; i < objects.size(); ++i)
+      if (objects[i].part == motion.part) motions_[i] = &motion;
+  now_ = rest_;
+  move(frame.timeS());
+  std::vector<vf::FieldForm> forms(objects.size(), settings_.form);
+  if (const auto* bySize = std::get_if<BySizeDetail>(&settings_.storage.detail)) {
+    std::vector<double> sizesPx;
+    for (const vf::Pose& pose : now_) sizesPx.push_back(sizePx(frame.camera(), frame.sizePx(), pose));
+    detail_ = formsBySize(settings_.form, sizesPx, frame.sizePx(), bySize->error);
+    forms = detail_->forms;
+  }
+  fields_.emplace(frame.context(), objects, forms, settings_.storage.tolerance, settings_.storage.folder);
+  names_.clear();
+  for (const vf::RigidObject& object : objects) names_.push_back(object.name);
   objectOf_.emplace(whole.objectOf);
-  std::vector<vf::Pose> poses;
-  for (const vf::RigidObject& object : objects) poses.push_back(vf::VisibilityFields::poseOf(object));
-  fields_->place(poses, frame.gpuScene().anchor());
+  if (trees) {
+    std::vector<ray_tracing::TreeTriangles> each;
+    for (const vf::RigidObject& object : objects)
+      each.push_back({object.vertices, object.triangles, object.numbers});
+    trees_.emplace(frame.context(), each);
+    fields_->setRoots(trees_->roots());
+  }
+  fields_->place(now_, frame.gpuScene().anchor());
+}
+
+void FieldReader::move(double timeS) {
+  for (size_t i = 0; i < rest_.size(); ++i)
+    if (motions_[i]) now_[i] = vf::VisibilityFields::moved(rest_[i], motions_[i]->at(timeS));
+}
+
+void FieldReader::place(const frame::Frame& frame) {
+  if (frame.scene().motions.empty()) return;
+  move(frame.timeS());
+  fields_->place(now_, frame.gpuScene().anchor());
 }
 
 gl::ShaderDefines FieldReader::defines() const {
   gl::ShaderDefines defines = fields_->defines();
   defines["FIELD_FETCH"] = std::to_string(static_cast<int>(settings_.fetch));
+  if (settings_.fetch != FieldFetch::Nearest) defines["FIELD_AIMED"] = "1";
   return defines;
 }
 
 void FieldReader::bind(const gl::Program& program) const {
   fields_->bind(program);
   objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
-  program.set("slack", static_cast<float>(0.5 * settings_.use.slack * vf::fieldSpacing(settings_.form)));
+  program.set("slackSpacings", static_cast<float>(settings_.use.slack));
 }
 
 gl::Buffer FieldReader::emptyCounts() {
@@ -284,18 +312,27 @@ std::vector<Counter> FieldReader::countersOf(const gl::Buffer& counts, const fra
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::vector<uint32_t> each = counts.read<uint32_t>();
   const double pixels = double(frame.sizePx().x) * frame.sizePx().y;
-  return {{"field_lookups_per_px", std::accumulate(each.begin(), each.end(), 0.0) / pixels},
-          {"field_mib", double(fields_->bytes()) / (1 << 20)},
-          {"field_run_length_mib", double(fields_->runLengthBytes()) / (1 << 20)},
-          {"field_rays", double(fields_->rayCount())},
-          {"field_objects", double(fields_->objectCount())}};
+  std::vector<Counter> out = {
+      {"field_lookups_per_px", std::accumulate(each.begin(), each.end(), 0.0) / pixels},
+      {"field_mib", double(fields_->bytes()) / (1 << 20)},
+      {"field_run_length_mib", double(fields_->runLengthBytes()) / (1 << 20)},
+      {"field_rays", double(fields_->rayCount())},
+      {"field_objects", double(fields_->objectCount())}};
+  if (detail_) {
+    out.push_back({"field_forms", double(detail_->formCount())});
+    if (std::isfinite(detail_->bound)) out.push_back({"field_error_bound", detail_->bound});
+  }
+  return out;
 }
 
 std::vector<std::string> FieldReader::remarks() const {
-  if (!fields_ || fields_->fieldsRead() == 0) return {};
-  return {std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
-          " fields were read from '" + settings_.storage.folder +
-          "' and not made: preparation took less time"};
+  std::vector<std::string> out;
+  if (detail_) out = detailRemarks(*detail_, names_);
+  if (fields_ && fields_->fieldsRead() > 0)
+    out.push_back(std::to_string(fields_->fieldsRead()) + " of " + std::to_string(fields_->objectCount()) +
+                  " fields were read from '" + settings_.storage.folder +
+                  "' and not made: preparation took less time");
+  return out;
 }
 
 std::vector<Quantity> FieldReader::quantities() {
@@ -306,7 +343,10 @@ std::vector<Quantity> FieldReader::quantities() {
            "Gaitatzes 2012, section 4.8"},
           {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
            "Gaitatzes 2012, section 4.4.1"},
-          {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"}};
+          {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"},
+          {"field_forms", "Different forms of fields that were chosen by size", "", Direction::Neither, "bench"},
+          {"field_error_bound", "Bound of the error of fields that were chosen by size", "",
+           Direction::LowerIsBetter, "bench"}};
 }
 
 ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
@@ -317,12 +357,26 @@ ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays
 void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer) {
   const vf::RigidObjects objects = objectsOf(frame, rays.objects);
   const ObjectTriangles all = objectTriangles(frame, objects);
-  if (const auto* grid = std::get_if<GridTracer>(&tracer))
+  const auto* grid = std::get_if<GridTracer>(&tracer);
+  if (!frame.scene().motions.empty()) {
+    if (grid)
+      throw Error("the cells of a grid are filled once, and parts of this scene move", "tracer",
+                  "use tracer: tree");
+    auto rebuilt = std::make_unique<ray_tracing::RebuiltTree>(frame.context(),
+                                                              static_cast<uint32_t>(all.triangles.size()));
+    rebuilt_ = rebuilt.get();
+    rays_ = std::move(rebuilt);
+    indices_.emplace(all.triangles);
+  } else if (grid)
     rays_ = std::make_unique<ray_tracing::TriangleGrid>(frame.context(), all.vertices, all.triangles,
                                                         grid->density);
   else
     rays_ = std::make_unique<ray_tracing::RayScene>(frame.context(), all.vertices, all.triangles);
   objectOf_.emplace(objects.objectOf);
+}
+
+void ObjectTracer::update(frame::Frame& frame) {
+  if (rebuilt_) rebuilt_->build(frame.passes(), frame.positions(), *indices_);
 }
 
 gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {

@@ -10,9 +10,12 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
+#include "renderer/ray_tracing/ray_forest.h"
 #include "renderer/ray_tracing/ray_scene.h"
+#include "renderer/ray_tracing/rebuilt_tree.h"
 #include "renderer/ray_tracing/triangle_grid.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/visibility_fields/visibility_fields.h"
 
 namespace limen::techniques {
@@ -95,6 +98,19 @@ constexpr EnumNames<FieldFetch, 4> enumNames(FieldFetch) {
             {FieldFetch::All, "all"}}}};
 }
 
+/// The same where a look-up must tell one surface.
+enum class HitFetch { Nearest, Aimed };
+constexpr EnumNames<HitFetch, 2> enumNames(HitFetch) {
+  return {{{{HitFetch::Nearest, "nearest"}, {HitFetch::Aimed, "aimed"}}}};
+}
+template <class S>
+Binding<S> hitFetchBinding(HitFetch S::*member) {
+  return {member, "fetch",
+          "What a look-up reads: the nearest position's nearest direction, or, from the nearest position, the direction to where the "
+          "ray is likely to meet the object; aimed ones from within its sphere tell the nearest surface where they can, the others the farthest",
+          "Gaitatzes 2012, section 4.4.2 (nearest); after Gortler et al. 1996 (aimed)"};
+}
+
 /// How fine fields are.
 struct GivenDetail {
   static constexpr const char *kKind = "given", *kSummary = "as given, wherever the objects are";
@@ -103,8 +119,8 @@ struct GivenDetail {
 struct BySizeDetail {
   static constexpr const char *kKind = "by_size",
                               *kSummary =
-                                  "the least bytes that keep to an error by the objects' size in the "
-                                  "picture when they are made; what is given is the finest";
+                                  "for each object by its size in the picture when they are made, with few bytes for "
+                                  "an error of the whole; what is given is the finest";
   double error = 0.02;
   static const SettingsTable<BySizeDetail>& table();
 };
@@ -142,14 +158,20 @@ class FieldReader {
  public:
   explicit FieldReader(const FieldReading& settings) : settings_(settings) {}
   /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
-  /// `smooth`: fields with normals have those of vertices.
-  void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true);
+  /// `smooth`: fields with normals have those of vertices. `trees`: the objects' triangles are kept as well, for
+  /// shaders that trace rays (near_trace.glsl).
+  void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true, bool trees = false);
+  /// Puts objects where they are at the frame's time, if any move. Before bind(), in each frame.
+  void place(const frame::Frame& frame);
   /// After prepare().
   gl::ShaderDefines defines() const;
   uint32_t objectCount() const { return fields_->objectCount(); }
   void bind(const gl::Program& program) const;
-  int64_t bytesHeld() const { return fields_->bytesHeld() + objectOf_->bytes(); }
-
+  /// RayForest of shaders that include near_trace.glsl.
+  void bindTrees(const gl::Program& program) const { trees_->bind(program); }
+  int64_t bytesHeld() const {
+    return fields_->bytesHeld() + objectOf_->bytes() + (trees_ ? trees_->bytes() : 0);
+  }
   /// Look-ups that run(counts) makes with a program compiled with COUNT and `counts` bound to
   /// kFieldCountsBuffer, and what the fields take.
   template <class Run>
@@ -162,12 +184,19 @@ class FieldReader {
   std::vector<std::string> remarks() const;
 
  private:
+  /// `now_`, at a time.
+  void move(double timeS);
   static gl::Buffer emptyCounts();
   std::vector<Counter> countersOf(const gl::Buffer& counts, const frame::Frame& frame) const;
 
-  FieldReading settings_;  ///< with the form that was chosen
+  FieldReading settings_;
+  std::optional<ChosenDetail> detail_;  ///< by size
+  std::vector<std::string> names_;      ///< of the objects
   std::optional<visibility_fields::VisibilityFields> fields_;
   std::optional<gl::Buffer> objectOf_;
+  std::optional<ray_tracing::RayForest> trees_;
+  std::vector<visibility_fields::Pose> rest_, now_;          ///< of the objects
+  std::vector<const scene::PartMotion*> motions_;  ///< of each object; null: it rests
 };
 
 /// How rays find triangles.
@@ -192,14 +221,21 @@ class ObjectTracer {
  public:
   void prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer);
   static gl::ShaderDefines defines(const TracerSetting& tracer);
+  /// Where parts move, builds the tree anew from where vertices are, whatever poses fields are placed in. Before a
+  /// pass is opened, in each frame.
+  void update(frame::Frame& frame);
   void bind(const gl::Program& program) const;
-  int64_t bytesHeld() const { return rays_->bytes() + objectOf_->bytes(); }
+  int64_t bytesHeld() const {
+    return rays_->bytes() + objectOf_->bytes() + (indices_ ? indices_->bytes() : 0);
+  }
   /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
   /// software renderer, which limits the steps of an invocation.
   static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);
 
  private:
   std::unique_ptr<ray_tracing::RayTree> rays_;
+  const ray_tracing::RebuiltTree* rebuilt_ = nullptr;  ///< `rays_`, if parts move
+  std::optional<gl::Buffer> indices_;                  ///< of the objects' triangles, for it
   std::optional<gl::Buffer> objectOf_;
 };
 

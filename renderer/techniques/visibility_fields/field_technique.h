@@ -12,29 +12,36 @@
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
+#include "renderer/techniques/visibility_fields/near_receivers/near_receivers.h"
 #include "renderer/techniques/visibility_fields/tile_filter.h"
 
 namespace limen::techniques {
 
-/// S: also `field`, a FieldReading, define(), which adds to the shader's defines, and passes() over the
-/// picture for a number of objects, each with its own `passObject`.
+/// S: also `field`, a FieldReading, define(), which adds to the shader's defines, passes() over the
+/// picture for a number of objects, each with its own `passObject`, near() and kNearShader, which traces the rays of
+/// receivers that are near to an object.
 template <class S>
 class FieldTechnique : public Technique {
  public:
   using Settings = S;
   explicit FieldTechnique(const S& settings)
-      : settings_(settings), reader_(settings.field), filter_(settings.rays.receiver, S::kPass, S::kFormat) {}
+      : settings_(settings),
+        reader_(settings.field),
+        near_(settings.near()),
+        filter_(settings.rays.receiver, S::kPass, S::kFormat) {}
 
   void prepare(frame::Frame& frame) override {
-    reader_.prepare(frame, settings_.rays.receiver);
+    reader_.prepare(frame, settings_.rays.receiver, true, near_.traced());
     gl::ShaderDefines defines = reader_.defines();
     settings_.define(defines);
+    near_.prepare(frame, S::kNearShader, defines);
+    near_.define(defines);
     program_ = &frame.context().programs().compute(S::kShader, defines);
     defines["COUNT"] = "1";
     counting_ = &frame.context().programs().compute(S::kShader, defines);
     picture_.emplace(S::kFormat, frame.sizePx());
     filter_.prepare(frame);
-    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld());
+    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld() + near_.bytesHeld());
   }
   void render(frame::Frame& frame) override {
     run(frame, *program_, nullptr);
@@ -42,15 +49,25 @@ class FieldTechnique : public Technique {
   }
   const gl::Texture& product() const override { return filter_.product(*picture_); }
   std::vector<Counter> count(frame::Frame& frame) override {
-    return reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
+    std::vector<Counter> out =
+        reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
+    out.push_back(near_.count(frame));
+    return out;
   }
   std::vector<std::string> remarks() const override { return reader_.remarks(); }
+  static std::vector<Quantity> quantities() {
+    std::vector<Quantity> out = FieldReader::quantities();
+    out.push_back(NearReceivers::quantity());
+    return out;
+  }
 
  private:
   void run(frame::Frame& frame, const gl::Program& program, const gl::Buffer* counts) {
     settings_.rays.makeInputs(frame);
     const auto scope = frame.passes().open(S::kPass);
+    reader_.place(frame);
     reader_.bind(program);
+    near_.bindList(program);
     if (counts) counts->bindStorage(kFieldCountsBuffer);
     settings_.rays.configure(program, frame);
     picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
@@ -60,10 +77,15 @@ class FieldTechnique : public Technique {
       program.dispatch(frame.sizePx());
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
+    near_.trace(reader_, [&](const gl::Program& tracing) {
+      settings_.rays.configure(tracing, frame);
+      picture_->bindImage(kFieldOutImage, gl::Access::Write);
+    });
   }
 
   S settings_;
   FieldReader reader_;
+  NearReceivers near_;
   TileFilter filter_;
   std::optional<gl::Texture> picture_;
   const gl::Program *program_ = nullptr, *counting_ = nullptr;
@@ -85,6 +107,7 @@ class TracedTechnique : public Technique {
   }
   void render(frame::Frame& frame) override {
     settings_.rays.makeInputs(frame);
+    tracer_.update(frame);
     {
       const auto scope = frame.passes().open(S::kPass);
       tracer_.bind(*program_);

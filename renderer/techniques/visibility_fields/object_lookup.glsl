@@ -4,7 +4,7 @@
 #include "renderer/visibility_fields/field_seen.glsl"
 
 #include "renderer/techniques/visibility_fields/field_counts.glsl"
-uniform float slack;  // diameters
+uniform float slackSpacings;
 
 bool canBlock(FieldReceiver receiver, uint object) {
   const FieldObject of = fieldObjects[object];
@@ -13,8 +13,12 @@ bool canBlock(FieldReceiver receiver, uint object) {
   return dot(of.centre - receiver.origin, receiver.normal) > -of.radius;
 }
 
-// Only an object's own surface must be told from what blocks its rays.
-float slackOf(FieldReceiver receiver, FieldObject object) { return receiver.object == object.owner ? slack : 0.0; }
+// In diameters. Only an object's own surface must be told from what blocks its rays.
+float slackOf(FieldReceiver receiver, FieldObject object) {
+  if (receiver.object != object.owner) return 0.0;
+  fieldUse(object);
+  return 0.5 * slackSpacings * (FIELD_POSITION_SPACING + FIELD_TEXEL_SPACING);
+}
 
 // Share of a ray that an object lets through.
 float seenPast(FieldReceiver receiver, uint index, vec3 direction) {

@@ -126,6 +126,7 @@ TEST_F(FieldReflectionTest, StoredNormalsAreThoseOfTheSurface) {
   const vf::RigidObject object = vf::makeRigidObject("balls", mesh.positions, mesh.triangles, mesh.normals);
   const vf::FieldForm form{vf::PositionForm::Lattice, 82, vf::DirectionForm::Concentric, 32, 32, 16};
   const vf::VisibilityFields fields(context(), {object}, form);
+  const vf::PositionMap positions(form.positionMap, form.positions);
   const std::vector<uint32_t> words = fields.readWords(0);
   const std::vector<float> shares = fields.readShares(0);
   ASSERT_EQ(words.size(), shares.size());
@@ -134,7 +135,7 @@ TEST_F(FieldReflectionTest, StoredNormalsAreThoseOfTheSurface) {
   for (size_t i = 0; i < words.size(); ++i) {
     if (shares[i] < 0.0F) continue;
     ++hits;
-    const glm::vec3 position = fields.positionMap().points()[i / 1024], z = -position;
+    const glm::vec3 position = positions.points()[i / 1024], z = -position;
     const glm::vec3 local =
         vf::fieldDirection((glm::vec2(i % 32, i % 1024 / 32) + 0.5F) / 32.0F, vf::kFieldConcentric);
     const glm::vec3 way = local.x * vf::fieldTangent(z) + local.y * vf::fieldBitangent(z) + local.z * z;

@@ -2,6 +2,7 @@
 // Mean visibility over a pixel's rays, their distances looked up in the objects' fields.
 #include "renderer/techniques/visibility_fields/occlusion_rays.glsl"
 #include "renderer/techniques/visibility_fields/object_lookup.glsl"
+#include "renderer/techniques/visibility_fields/near_receivers/near_list.glsl"
 
 layout(binding = kFieldOutImage, rgba32f) uniform image2D outImage;
 uniform uint passObject;  // of a pass for each object
@@ -57,5 +58,6 @@ void main() {
   const float open = shown ? openShare(receiver, occlusionFrame(pixel, receiver)) : 1.0;
 #endif
   imageStore(outImage, pixel, vec4(vec3(open), 1.0));
+  listIfNear(pixel);
   countLookUps(pixel);
 }

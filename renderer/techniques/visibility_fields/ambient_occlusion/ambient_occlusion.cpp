@@ -4,69 +4,101 @@
 // 2012, sections 4.4 to 4.7; several objects by the nearest hit of each ray (the bench's own), by products,
 // or by passes that subtract (section 4.7.1, Fig. 41).
 #include <algorithm>
+#include <string>
+#include <variant>
 
 #include "experiments/base/error.h"
+#include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_technique.h"
+#include "renderer/techniques/visibility_fields/near_receivers/near_receivers.h"
 #include "renderer/techniques/visibility_fields/occlusion_settings.h"
 
 namespace limen::techniques {
 namespace {
 
-enum class CombineObjects { Nearest, Product, Subtract, Passes };
-constexpr EnumNames<CombineObjects, 4> enumNames(CombineObjects) {
-  return {{{{CombineObjects::Nearest, "nearest"},
-            {CombineObjects::Product, "product"},
-            {CombineObjects::Subtract, "subtract"},
-            {CombineObjects::Passes, "passes"}}}};
-}
-static_assert(static_cast<int>(CombineObjects::Nearest) == kCombineNearest &&
-              static_cast<int>(CombineObjects::Product) == kCombineProduct &&
-              static_cast<int>(CombineObjects::Subtract) == kCombineSubtract &&
-              static_cast<int>(CombineObjects::Passes) == kCombinePasses);
+// What becomes of several objects, by COMBINE.
+struct NearestOfObjects {
+  static constexpr const char *kKind = "nearest", *kSummary = "the nearest hit of each ray";
+  static constexpr int kCode = kCombineNearest;
+  NearSetting near = NearTraced{};
+  static const SettingsTable<NearestOfObjects>& table() {
+    static const SettingsTable<NearestOfObjects> kTable = {nearBinding(&NearestOfObjects::near)};
+    return kTable;
+  }
+};
+struct ProductOfObjects {
+  static constexpr const char *kKind = "product", *kSummary = "the product of what each leaves visible";
+  static constexpr int kCode = kCombineProduct;
+  static const SettingsTable<ProductOfObjects>& table() {
+    static const SettingsTable<ProductOfObjects> kTable = {};
+    return kTable;
+  }
+};
+struct SubtractedObjects {
+  static constexpr const char *kKind = "subtract",
+                              *kSummary = "their occlusions subtracted one after another, in one pass";
+  static constexpr int kCode = kCombineSubtract;
+  static const SettingsTable<SubtractedObjects>& table() {
+    static const SettingsTable<SubtractedObjects> kTable = {};
+    return kTable;
+  }
+};
+struct PassForEachObject {
+  static constexpr const char *kKind = "passes", *kSummary = "subtracted in a full pass for each object";
+  static constexpr int kCode = kCombinePasses;
+  static const SettingsTable<PassForEachObject>& table() {
+    static const SettingsTable<PassForEachObject> kTable = {};
+    return kTable;
+  }
+};
+using CombineSetting =
+    std::variant<NearestOfObjects, ProductOfObjects, SubtractedObjects, PassForEachObject>;
 
 struct FieldOcclusionSettings {
   static constexpr const char* kShader =
       "renderer/techniques/visibility_fields/ambient_occlusion/ambient_occlusion.comp.glsl";
+  static constexpr const char* kNearShader =
+      "renderer/techniques/visibility_fields/near_receivers/near_occlusion.comp.glsl";
   static constexpr const char* kPass = "visibility_fields/occlusion";
   static constexpr gl::Format kFormat = gl::Format::RGBA32F;
 
   OcclusionRays rays;
   FieldReading field;
-  CombineObjects combine = CombineObjects::Nearest;
+  CombineSetting combine;
   static const SettingsTable<FieldOcclusionSettings>& table() {
     using S = FieldOcclusionSettings;
-    static const SettingsTable<S> kTable = {included(&S::rays),
-                                            included(&S::field),
-                                            {&S::combine, "combine",
-                                             "Several objects: the nearest hit of each ray, the product of "
-                                             "what each leaves visible, or their occlusions "
-                                             "subtracted one after another, in one pass or in a full pass "
-                                             "for each object",
-                                             "Gaitatzes 2012, section 4.7.1 (passes)"}};
+    static const SettingsTable<S> kTable = {
+        included(&S::rays),
+        included(&S::field),
+        {&S::combine, "combine", "Several objects", "Gaitatzes 2012, section 4.7.1 (passes)"}};
     return kTable;
   }
   void check() const {
-    if (field.use.spheres > 1 && combine != CombineObjects::Nearest)
-      throw Error(std::string("'combine: ") + limen::toText(combine) +
-                      "' would count each of an object's 'spheres' by itself",
+    if (field.use.spheres > 1 && !std::holds_alternative<NearestOfObjects>(combine))
+      throw Error("'combine' other than nearest would count each of an object's 'spheres' by itself",
                   "spheres", "leave out 'spheres', or use combine: nearest");
   }
+  NearSetting near() const {
+    const auto* nearest = std::get_if<NearestOfObjects>(&combine);
+    return nearest ? nearest->near : NearByField{};
+  }
   int passes(uint32_t objects) const {
-    return combine == CombineObjects::Passes ? std::max(static_cast<int>(objects), 1) : 1;
+    return std::holds_alternative<PassForEachObject>(combine) ? std::max(static_cast<int>(objects), 1) : 1;
   }
   void define(gl::ShaderDefines& defines) const {
-    defines["COMBINE"] = std::to_string(static_cast<int>(combine));
+    std::visit([&](const auto& one) { defines["COMBINE"] = std::to_string(one.kCode); }, combine);
   }
 };
 
 const RegisteredTechnique<FieldTechnique<FieldOcclusionSettings>> kFieldOcclusion{
     {.name = "visibility_fields/ambient_occlusion",
-     .version = 2,
+     .version = 3,
      .summary = "Ambient occlusion by rays whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, sections 4.4 to 4.7 (VF-01 to VF-18)",
      .product = ProductKind::Colour,
      .needs = {"casters"},
-     .counters = FieldReader::quantities(),
+     .followsMotion = true,
+     .counters = FieldTechnique<FieldOcclusionSettings>::quantities(),
      .effort = "rays"}};
 
 }  // namespace

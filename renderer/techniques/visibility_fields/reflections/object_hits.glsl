@@ -3,7 +3,7 @@
 #include "renderer/visibility_fields/field_lookup.glsl"
 
 layout(std430, binding = kFieldObjectOfBuffer) readonly buffer ObjectOf { uint objectOf[]; };
-uniform float slack;  // diameters
+uniform float slackSpacings;
 
 struct ObjectHit {
   float distance;  // kFieldNothing: none
@@ -14,6 +14,7 @@ struct ObjectHit {
 // `only`: number of the object that is looked up, kFieldNoObject: all; `without`: one that is not.
 ObjectHit nearestObject(vec3 origin, vec3 direction, uint only, uint without) {
   ObjectHit nearest = ObjectHit(kFieldNothing, -direction, 0u);
+  const float slack = 0.5 * slackSpacings * (FIELD_POSITION_SPACING + FIELD_TEXEL_SPACING);  // diameters
   for (uint object = 0u; object < fieldObjectCount; ++object) {
     const FieldObject of = fieldObjects[object];
     if (of.owner == without || (only != kFieldNoObject && of.owner != only)) continue;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mirrors, perfect and glossy, that find objects in visibility fields which store normals: 4 bytes a ray.
 // What has no field, like a ground, is traced. Rays from the eye are exact, or looked up as well, which shows
-// the pattern of positions and directions. Objects have one colour, that of their part without a pattern; of
-// objects around whose sphere a ray starts the field tells the farthest surface. Source: Gaitatzes 2012,
+// the pattern of positions and directions. Objects have one colour, that of their part without a pattern. Source: Gaitatzes 2012,
 // section 4.7.2.
 #include <epoxy/gl.h>
 
@@ -33,6 +32,7 @@ struct NormalField {
   int directions = 32;
   int distanceBits = 8;
   FieldUse use;
+  HitFetch fetch = HitFetch::Aimed;
   std::string folder;
   static const SettingsTable<NormalField>& table() {
     using S = NormalField;
@@ -45,13 +45,14 @@ struct NormalField {
          "Of the 32 bits of a ray those of its distance; the rest are the normal's",
          "Gaitatzes 2012, section 4.5.1 (4 bytes; 8 and 3 x 8 is a reading)"},
         included(&S::use),
+        hitFetchBinding(&S::fetch),
         folderBinding(&S::folder)};
     return kTable;
   }
   FieldReading reading() const {
     return {{positionMap, positions, directionMap, directions, 32, distanceBits},
             use,
-            FieldFetch::Nearest,
+            fetch == HitFetch::Aimed ? FieldFetch::Aimed : FieldFetch::Nearest,
             {folder, 0, GivenDetail{}}};
   }
 };
@@ -176,7 +177,7 @@ class FieldReflections : public Technique {
 
 const RegisteredTechnique<FieldReflections> kFieldReflectionsRegistered{
     {.name = kFieldReflections,
-     .version = 1,
+     .version = 2,
      .summary = "Perfect and glossy mirrors by rays whose hits are looked up in fields with normals",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-20, VF-21)",
      .product = ProductKind::Colour,

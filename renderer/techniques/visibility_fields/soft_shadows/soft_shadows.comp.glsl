@@ -2,6 +2,7 @@
 // Share of a light's points that no object hides by its field: none lies nearer than the point.
 #include "renderer/techniques/visibility_fields/shadow_rays.glsl"
 #include "renderer/techniques/visibility_fields/object_lookup.glsl"
+#include "renderer/techniques/visibility_fields/near_receivers/near_list.glsl"
 
 layout(binding = kFieldOutImage, r32f) uniform writeonly image2D outImage;
 
@@ -26,5 +27,6 @@ void main() {
   float seen = 1.0;
   if (isLit(pixel) && fieldReceiver(pixel, receiver)) seen = seenShare(pixel, receiver);
   imageStore(outImage, pixel, vec4(seen));
+  listIfNear(pixel);
   countLookUps(pixel);
 }

@@ -31,6 +31,7 @@ const RegisteredTechnique<TracedTechnique<ObjectOcclusionSettings>> kObjectOcclu
      .product = ProductKind::Colour,
      .needs = {"casters"},
      .reference = true,
+     .followsMotion = true,
      .effort = "rays"}};
 
 }  // namespace

@@ -30,6 +30,7 @@ const RegisteredTechnique<TracedTechnique<ObjectShadowSettings>> kObjectShadows{
      .product = ProductKind::Visibility,
      .needs = {"casters", "rectangular_light"},
      .reference = true,
+     .followsMotion = true,
      .effort = "rays"}};
 
 }  // namespace

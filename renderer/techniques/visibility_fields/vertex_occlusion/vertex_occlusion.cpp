@@ -13,9 +13,10 @@ constexpr double kMostBytes = 4.0 * (1 << 30);
 struct VertexFieldSettings {
   VertexRays rays;
   visibility_fields::FieldForm form;
+  HitFetch fetch = HitFetch::Aimed;
   static const SettingsTable<VertexFieldSettings>& table() {
     using S = VertexFieldSettings;
-    static const SettingsTable<S> kTable = {included(&S::rays), included(&S::form)};
+    static const SettingsTable<S> kTable = {included(&S::rays), included(&S::form), hitFetchBinding(&S::fetch)};
     return kTable;
   }
 };
@@ -24,7 +25,7 @@ class VertexFieldOcclusion : public VertexTechnique {
  public:
   using Settings = VertexFieldSettings;
   explicit VertexFieldOcclusion(const Settings& settings)
-      : VertexTechnique(settings.rays, "visibility_fields/vertex_occlusion"), form_(settings.form) {}
+      : VertexTechnique(settings.rays, "visibility_fields/vertex_occlusion"), form_(settings.form), fetch_(settings.fetch) {}
 
  protected:
   int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
@@ -44,7 +45,7 @@ class VertexFieldOcclusion : public VertexTechnique {
     std::fill(out.begin(), out.end(), -1.0);
     for (const visibility_fields::CpuField& field : fields_)
       for (size_t i = 0; i < directions.size(); ++i) {
-        const double distance = field.distance(origin, directions[i], 0.0);
+        const double distance = field.distance(origin, directions[i], 0.0, fetch_ == HitFetch::Aimed);
         if (distance >= 0.0 && (out[i] < 0.0 || distance < out[i])) out[i] = distance;
       }
   }
@@ -57,6 +58,7 @@ class VertexFieldOcclusion : public VertexTechnique {
 
  private:
   visibility_fields::FieldForm form_;
+  HitFetch fetch_;
   std::vector<visibility_fields::CpuField> fields_;
 };
 
@@ -69,7 +71,7 @@ std::vector<Quantity> vertexFieldQuantities() {
 
 const RegisteredTechnique<VertexFieldOcclusion> kVertexFieldOcclusion{
     {.name = "visibility_fields/vertex_occlusion",
-     .version = 2,
+     .version = 3,
      .summary = "Ambient occlusion of vertices that only receive, from visibility fields on the CPU",
      .source = "Gaitatzes 2012, section 4.6.1 (VF-15, VF-07)",
      .product = ProductKind::Colour,

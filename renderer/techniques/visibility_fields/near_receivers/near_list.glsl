@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The list of pixels whose rays found an object too near for its field (NearReceivers). FIELD_NEAR; otherwise there is none.
+#ifdef FIELD_NEAR
+#include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+layout(std430, binding = kNearListBuffer) buffer NearList {
+  NearListHeader nearList;
+  uint nearPixels[];
+};
+#endif
+
+void listIfNear(ivec2 pixel) {
+#ifdef FIELD_NEAR
+  if (fieldNear) nearPixels[atomicAdd(nearList.pixels, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
+#endif
+}
