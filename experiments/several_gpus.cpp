@@ -81,14 +81,12 @@ int sweepGroup(const SweepGroup& group, const std::vector<SweepDevice>& all, con
     output.say(fmt::format("{} of {} left, on {}; logs in {}", left.size(),
                            describeCount(keysOf(group).size(), "run"), describeCount(keys.size(), "GPU"),
                            submission.folder));
-    // Metrics use all processors that a task may run on.
-    const std::vector<std::vector<int>> cores = shareOfCores(keys.size());
     std::vector<KeptProgram> programs;
     std::vector<Restarts> restarts;
     for (size_t i = 0; i < keys.size(); ++i) {
       const int task = static_cast<int>(i) + 1;
       programs.push_back(
-          {measuringCall(submission, task, std::to_string(devices[i])), taskLog(submission, task), cores[i]});
+          {measuringCall(submission, task, std::to_string(devices[i])), taskLog(submission, task)});
       restarts.emplace_back(taskStore(submission, task));
     }
     ProgressLine line(submission, left.size());

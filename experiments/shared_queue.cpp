@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/shared_queue.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -9,6 +12,17 @@
 #include "experiments/base/file_lock.h"
 
 namespace limen::experiments {
+namespace {
+
+/// With one call, so that a process that is killed leaves all of it or the start of it.
+void addTo(const std::string& path, const std::string& text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const bool whole = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (file >= 0) close(file);
+  if (!whole) throw Error("cannot be written", path, "check permissions and free space");
+}
+
+}  // namespace
 
 void SharedQueue::readOn() {
   std::ifstream in(path_, std::ios::binary);
@@ -39,9 +53,7 @@ std::vector<bool> SharedQueue::take(const std::vector<std::string>& keys) {
     if (out.back() && mine_.count(key) == 0) lines += std::to_string(task_) + " " + key + "\n";
   }
   if (lines.size() == 1) return out;
-  std::ofstream file(path_, std::ios::binary | std::ios::app);
-  file << lines << std::flush;
-  if (!file) throw Error("cannot be written", path_, "check permissions and free space");
+  addTo(path_, lines);
   return out;
 }
 

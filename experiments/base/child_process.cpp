@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sched.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/prctl.h>
@@ -74,31 +73,6 @@ int waitFor(pid_t child) {
   return statusOf(status);
 }
 
-cpu_set_t allowedCores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  sched_getaffinity(0, sizeof set, &set);
-  return set;
-}
-
-/// While it exists, what this thread starts runs on these processors alone.
-class OnCores {
- public:
-  explicit OnCores(const std::vector<int>& cores) : before_(allowedCores()) {
-    if (cores.empty()) return;
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    for (const int core : cores) CPU_SET(core, &set);
-    sched_setaffinity(0, sizeof set, &set);
-  }
-  ~OnCores() { sched_setaffinity(0, sizeof before_, &before_); }
-  OnCores(const OnCores&) = delete;
-  OnCores& operator=(const OnCores&) = delete;
-
- private:
-  cpu_set_t before_;
-};
-
 class Keeper {
  public:
   Keeper(const std::vector<KeptProgram>& programs, const std::function<bool(size_t)>& again,
@@ -148,7 +122,6 @@ class Keeper {
       files.open(STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
       files.copy(STDOUT_FILENO, STDERR_FILENO);
     }
-    const OnCores restricted(programs_[index].cores);
     children_[index] = spawn(programs_[index].words, files);
   }
 
@@ -235,19 +208,6 @@ int runAndWait(const std::vector<std::string>& words, bool quiet) {
   if (quiet) files.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
   const pid_t child = spawn(words, files);
   return child == 0 ? 127 : waitFor(child);
-}
-
-std::vector<std::vector<int>> shareOfCores(size_t parts) {
-  const cpu_set_t set = allowedCores();
-  std::vector<int> cores;
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(core, &set)) cores.push_back(core);
-  std::vector<std::vector<int>> out(parts);
-  if (cores.size() < parts) return out;
-  for (size_t i = 0; i < parts; ++i)
-    out[i].assign(cores.begin() + static_cast<long>(i * cores.size() / parts),
-                  cores.begin() + static_cast<long>((i + 1) * cores.size() / parts));
-  return out;
 }
 
 std::vector<int> keepRunning(const std::vector<KeptProgram>& programs,

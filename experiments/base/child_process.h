@@ -33,13 +33,8 @@ int runAndWait(const std::vector<std::string>& words, bool quiet);
 /// One of several programs that are kept running.
 struct KeptProgram {
   std::vector<std::string> words;
-  std::string log;              ///< file that its output is added to; "": where this process writes
-  std::vector<int> cores = {};  ///< processors that it may run on; none: those of this process
+  std::string log;  ///< file that its output is added to; "": where this process writes
 };
-
-/// The processors that this process may run on, in `parts` parts of neighbours; none in a part if there are
-/// fewer processors than parts.
-std::vector<std::vector<int>> shareOfCores(size_t parts);
 
 /// Runs programs side by side until all have ended. One that a signal ended is started again while
 /// `again(index)` allows it. SIGINT and SIGTERM, of which this process must have no other handler, go on to

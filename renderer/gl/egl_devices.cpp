@@ -89,8 +89,8 @@ DeviceIdentity identityOf(EGLDeviceEXT device) {
 
 }  // namespace
 
-// EGL_EXT_device_base is the older extension that EGL_EXT_device_enumeration and EGL_EXT_device_query were split
-// from; NVIDIA's driver names it alone.
+// EGL_EXT_device_base is the older extension that EGL_EXT_device_enumeration and EGL_EXT_device_query were
+// split from; NVIDIA's driver names it alone.
 std::vector<EGLDeviceEXT> eglDevices() {
   requireEgl();
   std::vector<EGLDeviceEXT> devices(32);

@@ -144,7 +144,11 @@ struct MovingWheelSettings {
         {&S::spokes, "spokes", {1, 64}, "", "Of the wheel"},
         {&S::thickness, "thickness", {0.0001, 0.1}, "m", "Of a spoke, up and across; it is 1 long"},
         {&S::height, "height", {0.001, 1.0}, "m", "Of the spokes above the ground"},
-        {&S::turnDegS, "turn_deg_s", {0.0, 3600.0}, "deg/s", "Of the wheel about its axis, which stands upright"},
+        {&S::turnDegS,
+         "turn_deg_s",
+         {0.0, 3600.0},
+         "deg/s",
+         "Of the wheel about its axis, which stands upright"},
         {&S::reach, "reach", {0.0, 1.0}, "m", "That the wheel moves to both sides"},
         {&S::periodS, "period_s", {0.001, 60.0}, "s", "Of its motion to and fro"},
         {&S::startS, "start_s", {0.0, 600.0}, "s", "Time of the motion at which the scene begins"}};

@@ -29,7 +29,8 @@ class CpuField {
   int64_t rayCount() const { return static_cast<int64_t>(shares_.size()); }
 
  private:
-  /// Stored in the map nearest to a point of the unit sphere: for a direction, or, aimed, for that to a point within it.
+  /// Stored in the map nearest to a point of the unit sphere: for a direction, or, aimed, for that to a point
+  /// within it.
   float shareFrom(glm::vec3 point, glm::vec3 direction) const;
   float shareTowards(glm::vec3 point, glm::vec3 aim) const;
   float shareOf(int map, glm::vec3 direction) const;

@@ -16,7 +16,6 @@ inline constexpr float kNoDistance = -1.0F;
 /// are unit vectors; `near` and `far` are not read. `slack`: by how much of the sphere's diameter a blocker
 /// must lie before an origin inside the sphere. `aimed`: FIELD_AIMED of field_lookup.glsl. Waits for the GPU.
 std::vector<float> lookUp(gl::Context& context, const VisibilityFields& fields, uint32_t object,
-                          const std::vector<ray_tracing::BatchRay>& rays, double slack,
-                          bool aimed = false);
+                          const std::vector<ray_tracing::BatchRay>& rays, double slack, bool aimed = false);
 
 }  // namespace limen::visibility_fields

@@ -43,10 +43,10 @@ struct RigidObject {
   Sphere sphere;  ///< in the world; a little larger than the object, which nowhere touches it
   std::vector<glm::vec3> vertices;
   std::vector<glm::uvec3> triangles;
-  std::vector<uint32_t> numbers;  ///< of the triangles in the scene, or whatever they were made from
+  std::vector<uint32_t> numbers;   ///< of the triangles in the scene, or whatever they were made from
   std::vector<glm::vec3> normals;  ///< for shading, of the vertices; empty: those of the triangles
   glm::vec3 albedo{0.7F};          ///< of its part, without a pattern
-  uint32_t part = 0;    ///< of the scene that it is, or a piece of
+  uint32_t part = 0;               ///< of the scene that it is, or a piece of
   uint32_t owner = 0;              ///< number of the rigid object that this is, or a part of (sphere_cover.h)
 };
 

@@ -35,7 +35,8 @@ glm::dvec3 longestAxis(const std::vector<Facet>& facets) {
   glm::dvec3 middle(0.0);
   glm::dmat3 moments(0.0);
   for (const Facet& f : facets) {
-    const glm::dvec3 a = f.corners[0].position, b = f.corners[1].position, c = f.corners[2].position, centre = (a + b + c) / 3.0;
+    const glm::dvec3 a = f.corners[0].position, b = f.corners[1].position, c = f.corners[2].position,
+                     centre = (a + b + c) / 3.0;
     const double weight = 0.5 * glm::length(glm::cross(b - a, c - a));
     area += weight, middle += weight * centre;
     // Of a triangle: area / 12 (a a' + b b' + c c' + 9 centre centre').
@@ -77,7 +78,7 @@ void appendCut(const Facet& facet, const std::array<double, 3>& heights, double 
           between(facet.corners[forward ? i : next], facet.corners[forward ? next : i], low / (low - high)));
     }
   }
-  for (size_t i = 2; i < polygon.size(); ++i) 
+  for (size_t i = 2; i < polygon.size(); ++i)
     out.push_back({{polygon[0], polygon[i - 1], polygon[i]}, facet.number});
 }
 
@@ -92,7 +93,8 @@ std::pair<std::vector<Facet>, std::vector<Facet>> halves(const std::vector<Facet
   std::pair<std::vector<Facet>, std::vector<Facet>> out;
   for (const Facet& facet : facets) {
     std::array<double, 3> heights{};
-    for (size_t i = 0; i < 3; ++i) heights[i] = glm::dot(axis, facet.corners[i].position) - 0.5 * (low + high);
+    for (size_t i = 0; i < 3; ++i)
+      heights[i] = glm::dot(axis, facet.corners[i].position) - 0.5 * (low + high);
     const bool flat = heights == std::array<double, 3>{};
     appendCut(facet, heights, 1.0, out.first);
     if (!flat) appendCut(facet, heights, -1.0, out.second);

@@ -90,7 +90,8 @@ void VisibilityFields::plan(const std::vector<FieldForm>& forms) {
       sliceSide_ = std::max(sliceSide_, std::max(tileOf(kept.form).x, tileOf(kept.form).y));
     const auto place = [&] {
       slices = 0;
-      for (Kept& kept : kept_) kept.firstSlice = static_cast<int>(slices), slices += slicesOf(kept.form, kept.maps);
+      for (Kept& kept : kept_)
+        kept.firstSlice = static_cast<int>(slices), slices += slicesOf(kept.form, kept.maps);
     };
     place();
     while (sliceSide_ < kLargestSlice && slices > kMostSlices) sliceSide_ *= 2, place();

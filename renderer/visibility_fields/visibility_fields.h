@@ -91,7 +91,7 @@ class VisibilityFields {
   uint32_t objectCount_, fieldsRead_ = 0;
   bool varied_ = false;  ///< several forms: each object begins a slice of its own
   int slices_ = 1;
-  FieldForm first_;      ///< of the first object
+  FieldForm first_;  ///< of the first object
   std::vector<Kept> kept_;
   std::vector<uint32_t> owners_, albedos_, roots_;
   std::vector<FieldObject> placed_;  ///< kept, so that placing allocates nothing

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <thread>
 
-#include "experiments/base/child_process.h"
 #include "experiments/base/error.h"
 
 namespace limen::experiments {
@@ -66,31 +65,6 @@ TEST_F(SharedQueueTest, EachKeyGoesToOneOfManyAtOnce) {
 
 TEST_F(SharedQueueTest, AFolderThatIsGoneIsOneClearError) {
   EXPECT_THROW(SharedQueue(folder_ + "/none/taken", 1).take({"a"}), Error);
-}
-
-TEST(ShareOfCores, EveryProcessorGoesToOnePart) {
-  const std::vector<int> all = shareOfCores(1)[0];
-  ASSERT_FALSE(all.empty());
-  const std::vector<std::vector<int>> halves = shareOfCores(2);
-  if (all.size() == 1) {
-    EXPECT_THAT(halves, Each(testing::IsEmpty())) << "then both run where they like";
-    return;
-  }
-  std::vector<int> joined = halves[0];
-  joined.insert(joined.end(), halves[1].begin(), halves[1].end());
-  EXPECT_EQ(joined, all);
-  EXPECT_LE(halves[1].size() - halves[0].size(), 1U);
-}
-
-TEST(ShareOfCores, AProgramSeesItsOwnAndThisProcessKeepsAll) {
-  const std::vector<int> all = shareOfCores(1)[0];
-  const std::string log = testing::TempDir() + "share_of_cores.txt";
-  std::filesystem::remove(log);
-  EXPECT_THAT(keepRunning({{{"nproc"}, log, {all.front()}}}, [](size_t) { return false; }), ElementsAre(0));
-  std::string cores;
-  std::ifstream(log) >> cores;
-  EXPECT_EQ(cores, "1");
-  EXPECT_EQ(shareOfCores(1)[0], all);
 }
 
 }  // namespace

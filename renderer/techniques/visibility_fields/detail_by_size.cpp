@@ -79,8 +79,8 @@ size_t ChosenDetail::formCount() const {
   return texts.size();
 }
 
-ChosenDetail formsBySize(const vf::FieldForm& finest, const std::vector<double>& sizesPx, glm::ivec2 pictureSizePx,
-                         double error) {
+ChosenDetail formsBySize(const vf::FieldForm& finest, const std::vector<double>& sizesPx,
+                         glm::ivec2 pictureSizePx, double error) {
   const std::vector<Candidate> candidates = candidatesUpTo(finest);
   std::vector<size_t> chosen(sizesPx.size(), 0);
   const double pixels = double(pictureSizePx.x) * pictureSizePx.y;
@@ -102,8 +102,8 @@ ChosenDetail formsBySize(const vf::FieldForm& finest, const std::vector<double>&
     size_t object = 0, to = 0;
     for (size_t i = 0; i < sizesPx.size(); ++i)
       for (size_t next = chosen[i] + 1; next < candidates.size(); ++next) {
-        const double gain = (square(i, chosen[i]) - square(i, next)) /
-                            (candidates[next].words - candidates[chosen[i]].words);
+        const double gain =
+            (square(i, chosen[i]) - square(i, next)) / (candidates[next].words - candidates[chosen[i]].words);
         if (gain > best) best = gain, object = i, to = next;
       }
     if (!(best > 0.0)) {
@@ -140,13 +140,16 @@ std::vector<std::string> detailRemarks(const ChosenDetail& detail, const std::ve
   for (const auto& [form, group] : groups) {
     text += any ? "; " : " ";
     any = true;
-    text += form + " for " +
-            (group.objects == 1 ? "'" + group.first + "'"
-                                : std::to_string(group.objects) + " objects, the first '" + group.first + "'");
+    text +=
+        form + " for " +
+        (group.objects == 1 ? "'" + group.first + "'"
+                            : std::to_string(group.objects) + " objects, the first '" + group.first + "'");
   }
   std::vector<std::string> out = {text};
   if (!std::isfinite(detail.bound))
-    out.emplace_back("the camera is within an object's sphere, so that there is no bound of the error: that object has the finest field given");
+    out.emplace_back(
+        "the camera is within an object's sphere, so that there is no bound of the error: that object has "
+        "the finest field given");
   else if (!detail.kept())
     out.push_back("the bound of the error is " + threePlaces(detail.bound) + ", above the " +
                   threePlaces(detail.error) + " asked for, even with the finest fields given");

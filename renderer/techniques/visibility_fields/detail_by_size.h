@@ -13,8 +13,8 @@
 
 namespace limen::techniques {
 
-/// Radius in pixels of the disc whose area is that of an object's sphere as the camera sees it; infinite within
-/// it.
+/// Radius in pixels of the disc whose area is that of an object's sphere as the camera sees it; infinite
+/// within it.
 double sizePx(const scene::Camera& camera, glm::ivec2 pictureSizePx, const visibility_fields::Pose& pose);
 
 /// Bound of the root mean square error, over the whole picture, of what an object's field says is hidden.
@@ -35,10 +35,11 @@ struct ChosenDetail {
   size_t formCount() const;  ///< different ones
 };
 
-/// A form for each object with at most as many positions, directions and bits as `finest`, so that the bound of all
-/// objects together, whose squares add up, is not above `error`. From the coarsest on, the object whose finer form
-/// lowers the square most for its bytes gets it. Objects for which there is no bound have the finest. If even the
-/// finest of all do not keep to the error, each keeps to an equal share of its square, or has the finest.
+/// A form for each object with at most as many positions, directions and bits as `finest`, so that the bound
+/// of all objects together, whose squares add up, is not above `error`. From the coarsest on, the object
+/// whose finer form lowers the square most for its bytes gets it. Objects for which there is no bound have
+/// the finest. If even the finest of all do not keep to the error, each keeps to an equal share of its
+/// square, or has the finest.
 ChosenDetail formsBySize(const visibility_fields::FieldForm& finest, const std::vector<double>& sizesPx,
                          glm::ivec2 pictureSizePx, double error);
 

@@ -336,17 +336,18 @@ std::vector<std::string> FieldReader::remarks() const {
 }
 
 std::vector<Quantity> FieldReader::quantities() {
-  return {{"field_lookups_per_px", "Look-ups in fields, per pixel", "1/px", Direction::LowerIsBetter,
-           "Gaitatzes 2012, section 4.7.1"},
-          {"field_mib", "Size of the fields", "MiB", Direction::LowerIsBetter, "Gaitatzes 2012, Fig. 42"},
-          {"field_run_length_mib", "Size of the fields as run lengths", "MiB", Direction::LowerIsBetter,
-           "Gaitatzes 2012, section 4.8"},
-          {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
-           "Gaitatzes 2012, section 4.4.1"},
-          {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"},
-          {"field_forms", "Different forms of fields that were chosen by size", "", Direction::Neither, "bench"},
-          {"field_error_bound", "Bound of the error of fields that were chosen by size", "",
-           Direction::LowerIsBetter, "bench"}};
+  return {
+      {"field_lookups_per_px", "Look-ups in fields, per pixel", "1/px", Direction::LowerIsBetter,
+       "Gaitatzes 2012, section 4.7.1"},
+      {"field_mib", "Size of the fields", "MiB", Direction::LowerIsBetter, "Gaitatzes 2012, Fig. 42"},
+      {"field_run_length_mib", "Size of the fields as run lengths", "MiB", Direction::LowerIsBetter,
+       "Gaitatzes 2012, section 4.8"},
+      {"field_rays", "Rays traced to make the fields", "rays", Direction::LowerIsBetter,
+       "Gaitatzes 2012, section 4.4.1"},
+      {"field_objects", "Objects with a field", "", Direction::Neither, "Gaitatzes 2012, section 4.5.1"},
+      {"field_forms", "Different forms of fields that were chosen by size", "", Direction::Neither, "bench"},
+      {"field_error_bound", "Bound of the error of fields that were chosen by size", "",
+       Direction::LowerIsBetter, "bench"}};
 }
 
 ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {

@@ -106,8 +106,10 @@ constexpr EnumNames<HitFetch, 2> enumNames(HitFetch) {
 template <class S>
 Binding<S> hitFetchBinding(HitFetch S::*member) {
   return {member, "fetch",
-          "What a look-up reads: the nearest position's nearest direction, or, from the nearest position, the direction to where the "
-          "ray is likely to meet the object; aimed ones from within its sphere tell the nearest surface where they can, the others the farthest",
+          "What a look-up reads: the nearest position's nearest direction, or, from the nearest position, "
+          "the direction to where the "
+          "ray is likely to meet the object; aimed ones from within its sphere tell the nearest surface "
+          "where they can, the others the farthest",
           "Gaitatzes 2012, section 4.4.2 (nearest); after Gortler et al. 1996 (aimed)"};
 }
 
@@ -117,10 +119,11 @@ struct GivenDetail {
   static const SettingsTable<GivenDetail>& table();
 };
 struct BySizeDetail {
-  static constexpr const char *kKind = "by_size",
-                              *kSummary =
-                                  "for each object by its size in the picture when they are made, with few bytes for "
-                                  "an error of the whole; what is given is the finest";
+  static constexpr const char
+      *kKind = "by_size",
+      *kSummary =
+          "for each object by its size in the picture when they are made, with few bytes for "
+          "an error of the whole; what is given is the finest";
   double error = 0.02;
   static const SettingsTable<BySizeDetail>& table();
 };
@@ -158,8 +161,8 @@ class FieldReader {
  public:
   explicit FieldReader(const FieldReading& settings) : settings_(settings) {}
   /// Makes the fields. Throws Error if there are too many objects, or more rays than this device takes.
-  /// `smooth`: fields with normals have those of vertices. `trees`: the objects' triangles are kept as well, for
-  /// shaders that trace rays (near_trace.glsl).
+  /// `smooth`: fields with normals have those of vertices. `trees`: the objects' triangles are kept as well,
+  /// for shaders that trace rays (near_trace.glsl).
   void prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth = true, bool trees = false);
   /// Puts objects where they are at the frame's time, if any move. Before bind(), in each frame.
   void place(const frame::Frame& frame);
@@ -195,8 +198,8 @@ class FieldReader {
   std::optional<visibility_fields::VisibilityFields> fields_;
   std::optional<gl::Buffer> objectOf_;
   std::optional<ray_tracing::RayForest> trees_;
-  std::vector<visibility_fields::Pose> rest_, now_;          ///< of the objects
-  std::vector<const scene::PartMotion*> motions_;  ///< of each object; null: it rests
+  std::vector<visibility_fields::Pose> rest_, now_;  ///< of the objects
+  std::vector<const scene::PartMotion*> motions_;    ///< of each object; null: it rests
 };
 
 /// How rays find triangles.
@@ -221,8 +224,8 @@ class ObjectTracer {
  public:
   void prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer);
   static gl::ShaderDefines defines(const TracerSetting& tracer);
-  /// Where parts move, builds the tree anew from where vertices are, whatever poses fields are placed in. Before a
-  /// pass is opened, in each frame.
+  /// Where parts move, builds the tree anew from where vertices are, whatever poses fields are placed in.
+  /// Before a pass is opened, in each frame.
   void update(frame::Frame& frame);
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const {

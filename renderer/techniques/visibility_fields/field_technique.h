@@ -18,8 +18,8 @@
 namespace limen::techniques {
 
 /// S: also `field`, a FieldReading, define(), which adds to the shader's defines, passes() over the
-/// picture for a number of objects, each with its own `passObject`, near() and kNearShader, which traces the rays of
-/// receivers that are near to an object.
+/// picture for a number of objects, each with its own `passObject`, near() and kNearShader, which traces the
+/// rays of receivers that are near to an object.
 template <class S>
 class FieldTechnique : public Technique {
  public:

@@ -59,7 +59,8 @@ TEST_F(DetailBySizeTest, TheErrorIsKeptOnAPathOfDistances) {
   EXPECT_LT(before, 0.01 * nearest);
 }
 
-// One form for each object: beside a field of the finest form everywhere the picture changes by no more than the error.
+// One form for each object: beside a field of the finest form everywhere the picture changes by no more than
+// the error.
 TEST_F(DetailBySizeTest, EachObjectHasItsOwnForm) {
   constexpr double kError = 0.1;
   scene::Scene scene = seenFrom(4.0);
@@ -70,7 +71,8 @@ TEST_F(DetailBySizeTest, EachObjectHasItsOwnForm) {
   }
   Given given = {{"rays", int64_t{64}}, {"objects", std::string("parts")}};
   const Image exact = render(scene, "visibility_fields/traced_occlusion", given, kDetailSizePx).product;
-  given.insert({{"positions", int64_t{4226}}, {"directions", int64_t{32}}, {"combine.near", std::string("field")}});
+  given.insert(
+      {{"positions", int64_t{4226}}, {"directions", int64_t{32}}, {"combine.near", std::string("field")}});
   const double givenMib =
       render(scene, "visibility_fields/ambient_occlusion", given, kDetailSizePx, true).counter("field_mib");
   given["storage.detail"] = std::string("by_size");
@@ -122,8 +124,8 @@ TEST(FormsBySize, AreTheCoarsestForObjectsTooSmallToSee) {
   EXPECT_EQ(detailRemarks(chosen, {"a", "b"}).size(), 1U);
 }
 
-// Bounds of several objects add up as squares: of as many as alike the bound is the root of their number times
-// that of one.
+// Bounds of several objects add up as squares: of as many as alike the bound is the root of their number
+// times that of one.
 TEST(FormsBySize, BoundsAddUpAsSquares) {
   visibility_fields::FieldForm only;
   only.positions = 82, only.directions = 8, only.bits = 1;

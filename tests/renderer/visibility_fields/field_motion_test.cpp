@@ -19,8 +19,8 @@ constexpr double kMotionEye = 0.12;
 const glm::dvec3 kBoxHalf{0.45, 0.06, 0.15};
 const glm::dvec3 kBoxMiddle{0.05, 0.3, -0.04};
 
-/// A flat box over the ground that turns about an axis askew and shifts. The camera is below it and looks straight
-/// down: it sees ground alone.
+/// A flat box over the ground that turns about an axis askew and shifts. The camera is below it and looks
+/// straight down: it sees ground alone.
 scene::Scene turningBox() {
   scene::Scene scene;
   scene::addGround(scene, 8.0);
@@ -56,8 +56,8 @@ bool boxBlocks(glm::dvec3 from, glm::dvec3 way) {
   return near < far;
 }
 
-/// Share of the ground point's half space, by the cosine, that the box hides: 64 x 64 rays of equal shares (rings of
-/// equal sin^2, sectors of equal angles), which are none of the bench's.
+/// Share of the ground point's half space, by the cosine, that the box hides: 64 x 64 rays of equal shares
+/// (rings of equal sin^2, sectors of equal angles), which are none of the bench's.
 double hiddenByBox(glm::dvec3 point, const glm::dmat4& motion) {
   const glm::dmat4 back = glm::inverse(motion);
   const glm::dvec3 from(back * glm::dvec4(point, 1.0));
@@ -93,15 +93,17 @@ class FieldMotionTest : public TechniqueTest {
   }
 };
 
-// Rays of the technique: 1024 in as many cells, and as many again in the sums here, 4096: the box's outline, of length
-// up to 4 in the unit disc, cuts up to 4 * 32 / 1.77 * 1.5 = 110 cells, each of which may count either way: three
-// deviations are 3 * 0.5 * sqrt(110) / 1024 = 0.016, and half of that for the finer sums. Fields: nearer than a
-// footprint nothing is, so that none is traced: a texel, sqrt(pi) / 64 at a way of up to 2 radii of 0.48, and positions,
-// 0.055, move the outline of a box that is seen at 0.15 or more by up to 0.05 / 0.15 / 2 in angle for single rays,
-// by half of that to both sides alike on average: 0.05 of the half space for a pixel, 0.01 for the mean over all.
+// Rays of the technique: 1024 in as many cells, and as many again in the sums here, 4096: the box's outline,
+// of length up to 4 in the unit disc, cuts up to 4 * 32 / 1.77 * 1.5 = 110 cells, each of which may count
+// either way: three deviations are 3 * 0.5 * sqrt(110) / 1024 = 0.016, and half of that for the finer sums.
+// Fields: nearer than a footprint nothing is, so that none is traced: a texel, sqrt(pi) / 64 at a way of up
+// to 2 radii of 0.48, and positions, 0.055, move the outline of a box that is seen at 0.15 or more by up to
+// 0.05 / 0.15 / 2 in angle for single rays, by half of that to both sides alike on average: 0.05 of the half
+// space for a pixel, 0.01 for the mean over all.
 TEST_F(FieldMotionTest, FieldsFollowAnObjectThatTurnsAndShifts) {
   const scene::Scene scene = turningBox();
-  const Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}, {"positions", int64_t{4226}}, {"directions", int64_t{64}}};
+  const Given given = {
+      {"rays", int64_t{1024}}, {"radius", 10.0}, {"positions", int64_t{4226}}, {"directions", int64_t{64}}};
   for (const char* near : {"field", "traced"}) {
     Given each = given;
     each["combine.near"] = std::string(near);
@@ -127,8 +129,8 @@ TEST_F(FieldMotionTest, FieldsFollowAnObjectThatTurnsAndShifts) {
 // The tracer that fields are compared with builds its tree of the moved vertices, not of the fields' poses.
 TEST_F(FieldMotionTest, TracedRaysFollowAnObjectThatTurnsAndShifts) {
   const scene::Scene scene = turningBox();
-  renderAt(scene, "visibility_fields/traced_occlusion", {{"rays", int64_t{1024}}, {"radius", 10.0}}, {0.0, 0.7, 1.9, 40.3},
-           [&](double time, const Image& image) {
+  renderAt(scene, "visibility_fields/traced_occlusion", {{"rays", int64_t{1024}}, {"radius", 10.0}},
+           {0.0, 0.7, 1.9, 40.3}, [&](double time, const Image& image) {
              const glm::dmat4 motion = scene.motions[0].at(time);
              for (int y = 0; y < kMotionPx.y; ++y)
                for (int x = 0; x < kMotionPx.x; ++x)
@@ -150,12 +152,12 @@ TEST_F(FieldMotionTest, ShadowsFollowAnObjectThatTurnsAndShifts) {
                for (int x = 0; x < kMotionPx.x; ++x) {
                  const glm::dvec3 point = groundBehind(x, y);
                  const bool hidden = boxBlocks(glm::dvec3(back * glm::dvec4(point, 1.0)),
-                                            glm::dvec3(back * glm::dvec4(light - point, 0.0)));
+                                               glm::dvec3(back * glm::dvec4(light - point, 0.0)));
                  dark += hidden;
                  wrong += std::abs(image.at(x, y) - (hidden ? 0.0 : 1.0)) > 0.25;
                }
-             // The shadow's outline, 2.4 long in a view of 0.55 x 0.42, is uncertain by the footprint, 0.02 of the
-             // radius 0.48 and of its shadow: a band of 0.02 beside what of it is seen, 0.6 at most.
+             // The shadow's outline, 2.4 long in a view of 0.55 x 0.42, is uncertain by the footprint, 0.02
+             // of the radius 0.48 and of its shadow: a band of 0.02 beside what of it is seen, 0.6 at most.
              EXPECT_LT(wrong, 0.02 * 0.6 / (0.55 * 0.42) * kMotionPx.x * kMotionPx.y) << time;
              EXPECT_GT(dark, kMotionPx.x * kMotionPx.y / 10) << time;
              EXPECT_LT(dark, kMotionPx.x * kMotionPx.y) << time;

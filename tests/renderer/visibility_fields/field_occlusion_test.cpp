@@ -64,7 +64,10 @@ TEST_F(FieldOcclusionTest, BallsHideWhatTheirSolidAnglesSay) {
   lookDown(scene);
   for (const bool traced : {true, false}) {
     Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}};
-    if (!traced) given.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}});
+    if (!traced)
+      given.insert({{"positions", int64_t{4226}},
+                    {"directions", int64_t{64}},
+                    {"combine.near", std::string("field")}});
     const Image image = render(scene, traced ? kTraced : kField, given, kSizePx).product;
     double sum = 0.0;
     for (int y = 0; y < kSizePx.y; ++y)
@@ -104,7 +107,9 @@ TEST_F(FieldOcclusionTest, ErrorOfAimedRaysFallsWithDirections) {
   lookDown(scene);
   Given given = {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image exact = render(scene, kTraced, given, kSizePx).product;
-  given.insert({{"positions", int64_t{1090}}, {"fetch", std::string("aimed")}, {"combine.near", std::string("field")}});
+  given.insert({{"positions", int64_t{1090}},
+                {"fetch", std::string("aimed")},
+                {"combine.near", std::string("field")}});
   double before = 1.0;
   for (const int64_t directions : {8, 16, 32, 64}) {
     given["directions"] = directions;
@@ -122,7 +127,8 @@ TEST_F(FieldOcclusionTest, AimedRaysErrLessThanParallelOnes) {
   lookDown(scene);
   Given given = {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image exact = render(scene, kTraced, given, kSizePx).product;
-  given.insert({{"positions", int64_t{1090}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}});
+  given.insert(
+      {{"positions", int64_t{1090}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}});
   double before = 1.0;
   for (const char* fetch : {"nearest", "aimed", "positions"}) {
     given["fetch"] = std::string(fetch);
@@ -139,7 +145,10 @@ TEST_F(FieldOcclusionTest, ReceiversOfOtherObjectsHaveNoSlack) {
   scene::addGround(scene, 8.0);
   scene::addPart(scene, "box", scene::box({-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}), glm::vec3(0.5F));
   scene::setStillCamera(scene, {{1.2, 0.8, 0.0}, {0.6, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0});
-  Given given = {{"rays", int64_t{64}}, {"radius", 10.0}, {"self_occlusion", false}, {"combine.near", std::string("field")}};
+  Given given = {{"rays", int64_t{64}},
+                 {"radius", 10.0},
+                 {"self_occlusion", false},
+                 {"combine.near", std::string("field")}};
   given["positions"] = int64_t{1090};
   const Image without = render(scene, kField, given, kSizePx).product;
   given["slack"] = 20.0;
@@ -194,7 +203,8 @@ TEST_F(FieldOcclusionTest, AnObjectOccludesItself) {
   const Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image traced = render(scene, kTraced, given, kSizePx).product;
   Given fine = given;
-  fine.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}});
+  fine.insert(
+      {{"positions", int64_t{4226}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}});
   const Image found = render(scene, kField, fine, kSizePx).product;
   fine["self_occlusion"] = false;
   const Image without = render(scene, kField, fine, kSizePx).product;
@@ -218,7 +228,10 @@ TEST_F(FieldOcclusionTest, SlackKeepsAConvexObjectFromOccludingItself) {
   scene::Scene scene;
   scene::addPart(scene, "box", scene::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), glm::vec3(0.5F));
   scene::setStillCamera(scene, scene::orbitCamera({0.0, 0.0, 0.0}, 3.0, 30.0, 30.0));
-  Given given = {{"rays", int64_t{64}}, {"radius", 10.0}, {"positions", int64_t{4226}}, {"combine.near", std::string("field")}};
+  Given given = {{"rays", int64_t{64}},
+                 {"radius", 10.0},
+                 {"positions", int64_t{4226}},
+                 {"combine.near", std::string("field")}};
   EXPECT_EQ(meanOf(render(scene, kTraced, {{"rays", int64_t{64}}, {"radius", 10.0}}, kSizePx).product), 1.0);
   double before = 0.0;
   for (const double slack : {0.0, 0.5, 1.0, 2.0}) {
@@ -232,10 +245,11 @@ TEST_F(FieldOcclusionTest, SlackKeepsAConvexObjectFromOccludingItself) {
   }
 }
 
-// Beside a box on the ground: a wall of height h at the distance d, much longer than d, hides (1 - d / sqrt(d^2 + h^2)) / 2
-// (view factor of a strip). Looked up, receivers nearer than a footprint know nothing of the wall's foot; traced, they are as
-// exact as their rays: 1024 cells, of which the wall's top cuts up to 2 * 32 / 1.77 * 1.5 = 54, 3 * 0.5 * sqrt(54) / 1024 = 0.011,
-// and each end of the wall, 2 away, leaves open less than 0.002 of it.
+// Beside a box on the ground: a wall of height h at the distance d, much longer than d, hides (1 - d /
+// sqrt(d^2 + h^2)) / 2 (view factor of a strip). Looked up, receivers nearer than a footprint know nothing of
+// the wall's foot; traced, they are as exact as their rays: 1024 cells, of which the wall's top cuts up to 2
+// * 32 / 1.77 * 1.5 = 54, 3 * 0.5 * sqrt(54) / 1024 = 0.011, and each end of the wall, 2 away, leaves open
+// less than 0.002 of it.
 TEST_F(FieldOcclusionTest, ReceiversNearAnObjectAreTraced) {
   scene::Scene scene;
   scene::addGround(scene, 16.0);
@@ -260,30 +274,44 @@ TEST_F(FieldOcclusionTest, ReceiversNearAnObjectAreTraced) {
   EXPECT_GT(worst[0], 4.0 * worst[1]);
 }
 
-// Within the sphere of a tall box a ray that goes up into it leaves by the roof, far beyond the falloff's radius: the way back
-// from the sphere tells of the roof alone, the way from behind the ground of the bottom, which counts. A box that floats at the
-// height g hides from the ground's point below its middle, within a radius that holds its bottom, what the bottom does:
-// of a square of half-width a 4 / (2 pi) * 2 * X / sqrt(1 + X^2) * atan(X / sqrt(1 + X^2)), X = a / g, the view factor of four
-// corners. Rays, turned for each pixel, lie on 16 rings about the normal, of up to 0.12 of them each: the outline, at sines of 0.83 to
-// 0.90, wider than a ring, is found to a third of half of one, 0.02. Fields of 4226 x 64 x 64 move it, 0.72 to 0.94 away, by up to half
-// a footprint, 0.04 * 1.04, at a cosine of 0.5: 0.03 of the half space.
+// Within the sphere of a tall box a ray that goes up into it leaves by the roof, far beyond the falloff's
+// radius: the way back from the sphere tells of the roof alone, the way from behind the ground of the bottom,
+// which counts. A box that floats at the height g hides from the ground's point below its middle, within a
+// radius that holds its bottom, what the bottom does: of a square of half-width a 4 / (2 pi) * 2 * X / sqrt(1
+// + X^2) * atan(X / sqrt(1 + X^2)), X = a / g, the view factor of four corners. Rays, turned for each pixel,
+// lie on 16 rings about the normal, of up to 0.12 of them each: the outline, at sines of 0.83 to 0.90, wider
+// than a ring, is found to a third of half of one, 0.02. Fields of 4226 x 64 x 64 move it, 0.72 to 0.94 away,
+// by up to half a footprint, 0.04 * 1.04, at a cosine of 0.5: 0.03 of the half space.
 TEST_F(FieldOcclusionTest, WhatBlocksFirstCountsAndNotWhatIsBehindIt) {
   scene::Scene scene;
   scene::addGround(scene, 8.0);
-  constexpr double kHalf = 0.6, kGap = 0.4;  // the ground is within its sphere, of radius 1.04 about a height of 1
-  scene::addPart(scene, "box", scene::box({-kHalf, kGap, -kHalf}, {kHalf, kGap + 1.2, kHalf}), glm::vec3(0.5F));
+  constexpr double kHalf = 0.6,
+                   kGap = 0.4;  // the ground is within its sphere, of radius 1.04 about a height of 1
+  scene::addPart(scene, "box", scene::box({-kHalf, kGap, -kHalf}, {kHalf, kGap + 1.2, kHalf}),
+                 glm::vec3(0.5F));
   scene::setStillCamera(scene, {{0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 5.0});
   const double x = kHalf / kGap, root = std::sqrt(1.0 + x * x);
   const double hidden = 4.0 / (2.0 * M_PI) * 2.0 * x / root * std::atan(x / root);
   const double diagonal = frame::GpuScene(scene).diagonal();
   // Beyond the bottom's corners, sqrt(0.88) away, and short of the roof.
-  Given given = {{"rays", int64_t{1024}},       {"radius", 1.0 / diagonal}, {"self_occlusion", false}, {"pattern", std::string("turned")},
-                 {"positions", int64_t{4226}}, {"directions", int64_t{64}}, {"combine.near", std::string("field")}};
-  EXPECT_NEAR(meanOf(render(scene, kTraced, {{"rays", int64_t{1024}}, {"radius", 1.0 / diagonal}, {"self_occlusion", false}, {"pattern", std::string("turned")}}, kSizePx).product),
+  Given given = {{"rays", int64_t{1024}},
+                 {"radius", 1.0 / diagonal},
+                 {"self_occlusion", false},
+                 {"pattern", std::string("turned")},
+                 {"positions", int64_t{4226}},
+                 {"directions", int64_t{64}},
+                 {"combine.near", std::string("field")}};
+  EXPECT_NEAR(meanOf(render(scene, kTraced,
+                            {{"rays", int64_t{1024}},
+                             {"radius", 1.0 / diagonal},
+                             {"self_occlusion", false},
+                             {"pattern", std::string("turned")}},
+                            kSizePx)
+                         .product),
               1.0 - hidden, 0.02);
   EXPECT_NEAR(meanOf(render(scene, kField, given, kSizePx).product), 1.0 - hidden, 0.05);
-  // The thesis's look-up knows where a ray leaves the box alone: steeper ones than 0.6 / 1, a share 0.36 of the half space, do
-  // so farther away.
+  // The thesis's look-up knows where a ray leaves the box alone: steeper ones than 0.6 / 1, a share 0.36 of
+  // the half space, do so farther away.
   given["fetch"] = std::string("nearest");
   EXPECT_GT(meanOf(render(scene, kField, given, kSizePx).product), 1.0 - hidden + 0.3);
 }

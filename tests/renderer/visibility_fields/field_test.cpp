@@ -119,11 +119,11 @@ TEST_F(Field, OneBitSavesSevenEighthsAndKeepsTheMeanDistance) {
   }
 }
 
-// Fields of several forms in one texture, each in slices of its own: what is kept of each object is what it has alone, and
-// looking it up gives the same.
+// Fields of several forms in one texture, each in slices of its own: what is kept of each object is what it
+// has alone, and looking it up gives the same.
 TEST_F(Field, SeveralFormsBesideEachOtherAreAsEachAlone) {
-  const std::vector<RigidObject> objects = {objectOf(coneAndBox()), objectOf(scene::box({0, 0, 0}, {1, 2, 3})),
-                                            objectOf(coneAndBox())};
+  const std::vector<RigidObject> objects = {
+      objectOf(coneAndBox()), objectOf(scene::box({0, 0, 0}, {1, 2, 3})), objectOf(coneAndBox())};
   const std::vector<FieldForm> forms = {{PositionForm::Lattice, 290, DirectionForm::Concentric, 32, 8},
                                         {PositionForm::Lattice, 82, DirectionForm::Concentric, 16, 1},
                                         {PositionForm::Lattice, 1090, DirectionForm::Concentric, 8, 32}};
@@ -139,9 +139,11 @@ TEST_F(Field, SeveralFormsBesideEachOtherAreAsEachAlone) {
     std::vector<ray_tracing::BatchRay> rays;
     for (int ray = 0; ray < 4000; ++ray) {
       const Sphere& sphere = objects[i].sphere;
-      const glm::dvec3 from = sphere.centre + (ray % 2 == 0 ? 3.0 : 0.5) * sphere.radius *
-                                                  glm::normalize(glm::dvec3(normal(engine), normal(engine), normal(engine)));
-      const glm::dvec3 at = sphere.centre + 0.3 * sphere.radius * glm::dvec3(normal(engine), normal(engine), normal(engine));
+      const glm::dvec3 from =
+          sphere.centre + (ray % 2 == 0 ? 3.0 : 0.5) * sphere.radius *
+                              glm::normalize(glm::dvec3(normal(engine), normal(engine), normal(engine)));
+      const glm::dvec3 at =
+          sphere.centre + 0.3 * sphere.radius * glm::dvec3(normal(engine), normal(engine), normal(engine));
       rays.push_back({glm::vec3(from), 0.0F, glm::vec3(glm::normalize(at - from)), 1.0F});
     }
     EXPECT_EQ(lookUp(context(), together, i, rays, 0.01), lookUp(context(), alone, 0, rays, 0.01)) << i;
@@ -266,9 +268,9 @@ TEST_F(Field, LookUpFromInsideTellsAheadFromBehind) {
   EXPECT_LT(worst, kReach * (f.position / 0.75 + 1.2 * 0.9 * f.texel));
 }
 
-// Two plates of one object, both ahead of an origin within its sphere and nothing behind it: the way back meets the farther one,
-// aimed rays find the nearer one as well, on the GPU and on the CPU. Distances are off by no more than half a code, as the plates are
-// across the rays.
+// Two plates of one object, both ahead of an origin within its sphere and nothing behind it: the way back
+// meets the farther one, aimed rays find the nearer one as well, on the GPU and on the CPU. Distances are off
+// by no more than half a code, as the plates are across the rays.
 TEST_F(Field, AimedLookUpsFromWithinTellTheNearest) {
   scene::Mesh plates = scene::card({0.2, 0.0, 0.0}, {0.0, 0.6, 0.0}, {0.0, 0.0, 0.6});
   scene::append(plates, scene::card({0.8, 0.0, 0.0}, {0.0, 0.6, 0.0}, {0.0, 0.0, 0.6}));
@@ -292,8 +294,9 @@ TEST_F(Field, AimedLookUpsFromWithinTellTheNearest) {
     const double slope = 1.0 / rays[i].direction.x;
     EXPECT_NEAR(nearest[i], 0.8 * slope, 0.12);
     EXPECT_NEAR(aimed[i], 0.2 * slope, 0.12);
-    EXPECT_NEAR(cpu.distance(glm::dvec3(rays[i].origin), glm::normalize(glm::dvec3(rays[i].direction)), 0.0, true),
-                0.2 * slope, 0.12);
+    EXPECT_NEAR(
+        cpu.distance(glm::dvec3(rays[i].origin), glm::normalize(glm::dvec3(rays[i].direction)), 0.0, true),
+        0.2 * slope, 0.12);
   }
 }
 

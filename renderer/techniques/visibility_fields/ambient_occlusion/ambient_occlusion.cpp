@@ -20,7 +20,7 @@ namespace {
 struct NearestOfObjects {
   static constexpr const char *kKind = "nearest", *kSummary = "the nearest hit of each ray";
   static constexpr int kCode = kCombineNearest;
-  NearSetting near = NearTraced{};
+  NearSetting near = NearByField{};
   static const SettingsTable<NearestOfObjects>& table() {
     static const SettingsTable<NearestOfObjects> kTable = {nearBinding(&NearestOfObjects::near)};
     return kTable;
@@ -51,8 +51,7 @@ struct PassForEachObject {
     return kTable;
   }
 };
-using CombineSetting =
-    std::variant<NearestOfObjects, ProductOfObjects, SubtractedObjects, PassForEachObject>;
+using CombineSetting = std::variant<NearestOfObjects, ProductOfObjects, SubtractedObjects, PassForEachObject>;
 
 struct FieldOcclusionSettings {
   static constexpr const char* kShader =

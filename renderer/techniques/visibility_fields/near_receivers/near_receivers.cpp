@@ -31,11 +31,11 @@ void NearReceivers::define(gl::ShaderDefines& defines) const {
   if (traced()) defines["FIELD_NEAR"] = "1";
 }
 
-void NearReceivers::prepare(frame::Frame& frame, const std::string& shader, const gl::ShaderDefines& defines) {
+void NearReceivers::prepare(frame::Frame& frame, const std::string& shader,
+                            const gl::ShaderDefines& defines) {
   if (!traced()) return;
   gl::ProgramCache& programs = frame.context().programs();
-  groups_ = &programs.compute(
-      "renderer/techniques/visibility_fields/near_receivers/near_groups.comp.glsl");
+  groups_ = &programs.compute("renderer/techniques/visibility_fields/near_receivers/near_groups.comp.glsl");
   program_ = &programs.compute(shader, defines);
   const int64_t pixels = int64_t{frame.sizePx().x} * frame.sizePx().y;
   list_.emplace(static_cast<int64_t>(sizeof(NearListHeader)) + int64_t{4} * pixels, nullptr);

@@ -22,10 +22,11 @@ struct NearByField {
   static const SettingsTable<NearByField>& table();
 };
 struct NearTraced {
-  static constexpr const char *kKind = "traced",
-                              *kSummary =
-                                  "all rays of a pixel are traced if a look-up of one finds a surface that is nearer "
-                                  "than the field's own rays are fine, or finds that something blocks it but not where";
+  static constexpr const char
+      *kKind = "traced",
+      *kSummary =
+          "all rays of a pixel are traced if a look-up of one finds a surface that is nearer "
+          "than the field's own rays are fine, or finds that something blocks it but not where";
   double footprints = 0.5;
   static const SettingsTable<NearTraced>& table();
 };
@@ -36,8 +37,8 @@ Binding<S> nearBinding(NearSetting S::*member) {
           "Gaitatzes 2012, section 4.4.2 (field); bench (traced)"};
 }
 
-/// Lists such receivers while fields are read, and then makes their pixels anew with traced rays. Nothing is read
-/// back.
+/// Lists such receivers while fields are read, and then makes their pixels anew with traced rays. Nothing is
+/// read back.
 class NearReceivers {
  public:
   explicit NearReceivers(const NearSetting& setting) : setting_(setting) {}

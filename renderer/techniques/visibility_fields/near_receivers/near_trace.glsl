@@ -27,12 +27,20 @@ Ray rayOf(FieldObject object, FieldReceiver receiver, vec3 direction, float reac
              reach / object.radius, receiver.triangle);
 }
 
+// Whether a ray passes an object's sphere before `reach`; a little larger, for rounding.
+bool nearMeetsSphere(FieldObject object, FieldReceiver receiver, vec3 direction, float reach) {
+  const vec3 toCentre = object.centre - receiver.origin;
+  const float along = dot(toCentre, direction), radius = 1.001 * object.radius;
+  const vec3 beside = toCentre - along * direction;
+  return dot(beside, beside) <= radius * radius && along + radius >= 0.0 && along - radius <= reach;
+}
+
 // Whether an object lies on the way, up to the distance `reach`.
 bool nearIsBlocked(FieldReceiver receiver, vec3 direction, float reach) {
   for (uint i = 0u; i < fieldObjectCount; ++i) {
     ++rayIterations;
     rayRoot = fieldObjects[i].root;
-    if (rayRoot == kRayNoRoot || !canBlock(receiver, i)) continue;
+    if (rayRoot == kRayNoRoot || !canBlock(receiver, i) || !nearMeetsSphere(fieldObjects[i], receiver, direction, reach)) continue;
     if (rayAnyHit(rayOf(fieldObjects[i], receiver, direction, reach))) return true;
   }
   return false;
@@ -44,8 +52,9 @@ float nearDistance(FieldReceiver receiver, vec3 direction) {
   for (uint i = 0u; i < fieldObjectCount; ++i) {
     ++rayIterations;
     rayRoot = fieldObjects[i].root;
-    if (rayRoot == kRayNoRoot || !canBlock(receiver, i)) continue;
-    const RayHit hit = rayClosestHit(rayOf(fieldObjects[i], receiver, direction, nearest < 0.0 ? kRayFarthest : nearest));
+    const float reach = nearest < 0.0 ? kRayFarthest : nearest;
+    if (rayRoot == kRayNoRoot || !canBlock(receiver, i) || !nearMeetsSphere(fieldObjects[i], receiver, direction, reach)) continue;
+    const RayHit hit = rayClosestHit(rayOf(fieldObjects[i], receiver, direction, reach));
     if (hit.triangle != kRayNoTriangle) nearest = hit.t * fieldObjects[i].radius;
   }
   return nearest;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mirrors, perfect and glossy, that find objects in visibility fields which store normals: 4 bytes a ray.
 // What has no field, like a ground, is traced. Rays from the eye are exact, or looked up as well, which shows
-// the pattern of positions and directions. Objects have one colour, that of their part without a pattern. Source: Gaitatzes 2012,
-// section 4.7.2.
+// the pattern of positions and directions. Objects have one colour, that of their part without a pattern.
+// Source: Gaitatzes 2012, section 4.7.2.
 #include <epoxy/gl.h>
 
 #include <optional>

@@ -18,7 +18,7 @@ struct FieldShadowSettings {
 
   LightRays rays;
   FieldReading field;
-  NearSetting nearSetting = NearTraced{};
+  NearSetting nearSetting = NearByField{};
   static const SettingsTable<FieldShadowSettings>& table() {
     using S = FieldShadowSettings;
     static const SettingsTable<S> kTable = {included(&S::rays), included(&S::field),

@@ -16,7 +16,8 @@ struct VertexFieldSettings {
   HitFetch fetch = HitFetch::Aimed;
   static const SettingsTable<VertexFieldSettings>& table() {
     using S = VertexFieldSettings;
-    static const SettingsTable<S> kTable = {included(&S::rays), included(&S::form), hitFetchBinding(&S::fetch)};
+    static const SettingsTable<S> kTable = {included(&S::rays), included(&S::form),
+                                            hitFetchBinding(&S::fetch)};
     return kTable;
   }
 };
@@ -25,7 +26,9 @@ class VertexFieldOcclusion : public VertexTechnique {
  public:
   using Settings = VertexFieldSettings;
   explicit VertexFieldOcclusion(const Settings& settings)
-      : VertexTechnique(settings.rays, "visibility_fields/vertex_occlusion"), form_(settings.form), fetch_(settings.fetch) {}
+      : VertexTechnique(settings.rays, "visibility_fields/vertex_occlusion"),
+        form_(settings.form),
+        fetch_(settings.fetch) {}
 
  protected:
   int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
