@@ -5,7 +5,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace limen::techniques {
-namespace {
 
 scene::Scene withLightTurned(const scene::Scene& scene, double degrees) {
   scene::Scene out = scene;
@@ -17,8 +16,6 @@ scene::Scene withLightTurned(const scene::Scene& scene, double degrees) {
   light.axisY = glm::dvec3(turn * glm::dvec4(light.axisY, 0.0));
   return out;
 }
-
-}  // namespace
 
 const SettingsTable<FramesBefore>& FramesBefore::table() {
   using S = FramesBefore;

@@ -5,8 +5,12 @@
 
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
+#include "renderer/scene/scene.h"
 
 namespace limen::techniques {
+
+/// The scene with its first light, which must be there, turned about the scene's middle and the vertical.
+scene::Scene withLightTurned(const scene::Scene& scene, double degrees);
 
 /// Frames that a technique which carries something from frame to frame renders before its first picture.
 struct FramesBefore {

@@ -4,9 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/scene/part_motion.h"
+#include "renderer/techniques/frames_before.h"
 #include "renderer/techniques/voxelization/voxelization_bindings.h"
 #include "renderer/voxels/voxel_bindings.h"
 
@@ -16,17 +16,6 @@ namespace {
 constexpr const char* kPicturePass = "incremental_voxelization/picture";
 constexpr const char* kVolumePass = "incremental_voxelization/volume";
 constexpr const char* kLightMapPass = "incremental_voxelization/light_map";
-
-scene::Scene withTurnedLight(const scene::Scene& scene, double degrees) {
-  scene::Scene out = scene;
-  scene::AreaLight& light = out.lights.at(0);
-  const glm::dvec3 middle = scene.bounds().centre();
-  const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::dvec3(0.0, 1.0, 0.0));
-  light.centre = middle + glm::dvec3(turn * glm::dvec4(light.centre - middle, 0.0));
-  light.axisX = glm::dvec3(turn * glm::dvec4(light.axisX, 0.0));
-  light.axisY = glm::dvec3(turn * glm::dvec4(light.axisY, 0.0));
-  return out;
-}
 
 float largestOf(glm::vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -71,7 +60,7 @@ void IncrementalTechnique::renderSequence(frame::Frame& frame) {
     frame.setTime(now - before * settings_.sequence.stepS);
     frame.begin();
     if (turns) {
-      const scene::Scene turned = withTurnedLight(frame.scene(), -before * settings_.sequence.lightTurnDeg);
+      const scene::Scene turned = withLightTurned(frame.scene(), -before * settings_.sequence.lightTurnDeg);
       frame::Frame other(frame, "sequence", turned);
       other.begin();
       step(other);
