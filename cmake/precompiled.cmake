@@ -14,7 +14,7 @@ function(limen_header_library target)
 endfunction()
 
 # limen_precompile(FOLDER): the targets below FOLDER that compile something and have no precompiled headers yet take those
-# of limen_common_headers. Called once every folder has been read.
+# of limen_common_headers, or of limen_command_headers if they are compiled with its options. Called once every folder has been read.
 function(limen_precompile folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
@@ -22,7 +22,12 @@ function(limen_precompile folder)
     get_target_property(own ${target} PRECOMPILE_HEADERS)
     get_target_property(taken ${target} PRECOMPILE_HEADERS_REUSE_FROM)
     if(type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$" AND NOT own AND NOT taken)
-      target_precompile_headers(${target} REUSE_FROM limen_common_headers)
+      get_target_property(command ${target} LIMEN_COMMAND_CODE)
+      if(command)
+        target_precompile_headers(${target} REUSE_FROM limen_command_headers)
+      else()
+        target_precompile_headers(${target} REUSE_FROM limen_common_headers)
+      endif()
     endif()
   endforeach()
   get_property(children DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
