@@ -4,7 +4,7 @@
 namespace limen::techniques {
 
 IncrementalUpdate::IncrementalUpdate(gl::Context& context, const Settings& settings,
-                                     const voxels::SampledVolume& volume, int views, int used)
+                                     const incremental_voxels::SampledVolume& volume, int views, int used)
     : injection_(context, settings.points, volume, views, used) {
   if (settings.kept)
     cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
@@ -12,10 +12,10 @@ IncrementalUpdate::IncrementalUpdate(gl::Context& context, const Settings& setti
     forget_.emplace(context, volume);
 }
 
-void IncrementalUpdate::run(frame::Frame& frame, const voxels::SampledVolume& volume,
-                            const std::vector<voxels::DepthView>& views,
-                            const voxels::SampleLighting& lighting, int step,
-                            voxels::MovingBricks* only) const {
+void IncrementalUpdate::run(frame::Frame& frame, const incremental_voxels::SampledVolume& volume,
+                            const std::vector<incremental_voxels::DepthView>& views,
+                            const incremental_voxels::SampleLighting& lighting, int step,
+                            incremental_voxels::MovingBricks* only) const {
   {
     const auto scope = frame.passes().open("incremental_voxelization/clean_up");
     const glm::dvec3 anchor = frame.gpuScene().anchor();

@@ -2,7 +2,7 @@
 // From one volume to the other, a voxel an invocation. KEEP: all that a view does not disprove (Gaitatzes 2012, listing 7.1, with
 // the sign of the depth put right). Otherwise what was injected, means of normals first, replaces what is there.
 #include "renderer/techniques/incremental_voxelization/voxel_textures.glsl"
-#include "renderer/voxels/disproof.glsl"
+#include "renderer/incremental_voxels/disproof.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kVoxelSourceUnit) uniform VOXEL_SAMPLER sources[TARGETS];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point of the grid to its voxel (Gaitatzes 2012, listing 7.2).
 #include "renderer/techniques/incremental_voxelization/voxel_textures.glsl"
-#include "renderer/voxels/seen_samples.glsl"
+#include "renderer/incremental_voxels/seen_samples.glsl"
 
 layout(binding = kSeenNormalUnit) uniform sampler2D seenNormals;
 layout(binding = kSeenLightUnit) uniform sampler2D seenLights;

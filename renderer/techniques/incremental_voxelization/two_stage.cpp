@@ -28,10 +28,10 @@ constexpr EnumNames<CleanUpRegion, 2> enumNames(CleanUpRegion) {
 struct TwoStageSettings {
   IncrementalSettings common;
   bool attributes = true;
-  voxels::CleanUpSettings cleanUp;
+  incremental_voxels::CleanUpSettings cleanUp;
   CleanUpRegion region = CleanUpRegion::Everywhere;
   BrickDecision bricks = BrickDecision::None;
-  voxels::PointSettings points;
+  incremental_voxels::PointSettings points;
   void check() const {
     if (region == CleanUpRegion::Moving && scrolls(common.box))
       throw Error("bricks in which parts have been are those of a box that does not scroll", "region",
@@ -59,7 +59,7 @@ class TwoStage : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     update_.emplace(frame.context(),
                     IncrementalUpdate::Settings{.kept = settings_.cleanUp,
@@ -82,7 +82,7 @@ class TwoStage : public IncrementalTechnique {
 
  private:
   TwoStageSettings settings_;
-  std::optional<voxels::MovingBricks> bricks_;
+  std::optional<incremental_voxels::MovingBricks> bricks_;
   std::optional<IncrementalUpdate> update_;
 };
 

@@ -11,7 +11,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/voxels/voxel_grid.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// A depth image that knows the triangle of each pixel.
 struct DepthView {
@@ -46,7 +46,7 @@ frame::LightFrustum fitted(const scene::AreaLight& light, const scene::Bounds& b
 
 /// Views as shaders see them that include depth_views.glsl: textures, and uniforms in the grid's voxels. The
 /// program is compiled with VIEWS, their number.
-void configureViews(const gl::Program& program, const std::vector<DepthView>& views, const VoxelGrid& grid,
-                    glm::dvec3 anchor);
+void configureViews(const gl::Program& program, const std::vector<DepthView>& views,
+                    const voxels::VoxelGrid& grid, glm::dvec3 anchor);
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

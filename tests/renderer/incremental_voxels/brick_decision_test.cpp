@@ -2,16 +2,16 @@
 // Whole bricks that are decided by tiles of depth images end as their voxels would, one by one.
 #include <algorithm>
 
+#include "renderer/incremental_voxels/clean_up.h"
+#include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/single_pass.h"
 #include "tests/renderer/voxels/voxelizer_fixture.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
-class BrickDecisionTest : public VoxelizerFixture {
+class BrickDecisionTest : public voxels::VoxelizerFixture {
  protected:
   /// Boxes before nothing; the grid reaches far beyond them.
   static scene::Scene boxes(const scene::Camera& camera) {
@@ -22,15 +22,15 @@ class BrickDecisionTest : public VoxelizerFixture {
     scene::setStillCamera(scene, camera);
     return scene;
   }
-  static VoxelGrid wideGrid() {
-    VoxelGrid grid;
+  static voxels::VoxelGrid wideGrid() {
+    voxels::VoxelGrid grid;
     grid.origin = {-2.0, -1.7, -2.9};
     grid.voxelSize = 0.045;
     grid.resolution = {90, 73, 101};
     return grid;
   }
   /// Seven of eight voxels.
-  static std::vector<uint8_t> someVoxels(const VoxelGrid& grid) {
+  static std::vector<uint8_t> someVoxels(const voxels::VoxelGrid& grid) {
     scene::Random random(7);
     std::vector<uint8_t> out(static_cast<size_t>(grid.count()));
     for (uint8_t& one : out) one = random.uniform(0.0, 8.0) < 7.0 ? 1 : 0;
@@ -44,7 +44,7 @@ class BrickDecisionTest : public VoxelizerFixture {
   /// What a pass of a kind leaves, with and without tiles. Returns the number of bricks that tiles decide.
   template <class Make, class Run>
   static int64_t compareFor(const scene::Scene& scene, int used, Make make, Run run) {
-    const VoxelGrid grid = wideGrid();
+    const voxels::VoxelGrid grid = wideGrid();
     const std::vector<uint8_t> before = someVoxels(grid);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, {93, 71});
@@ -119,4 +119,4 @@ TEST_F(BrickDecisionTest, ASinglePassLeavesTheSameVoxels) {
 }
 
 }  // namespace
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -6,10 +6,10 @@
 #include "experiments/base/enum_names.h"
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
-#include "renderer/voxels/depth_view.h"
-#include "renderer/voxels/sampled_volume.h"
+#include "renderer/incremental_voxels/depth_view.h"
+#include "renderer/incremental_voxels/sampled_volume.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// Order and places of the points of an image at which it is sampled (Gaitatzes 2012, section 7.6).
 enum class PointPattern {
@@ -64,4 +64,4 @@ void configurePoints(const gl::Program& program, const PointSettings& settings, 
 void configureSampleLights(const gl::Program& program, const frame::Frame& frame,
                            const SampleLighting& lighting);
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

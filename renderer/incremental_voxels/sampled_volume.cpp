@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/sampled_volume.h"
+#include "renderer/incremental_voxels/sampled_volume.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "renderer/voxels/clean_up.h"
+#include "renderer/incremental_voxels/clean_up.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
 constexpr int64_t kStateHeader = 2 * int64_t{sizeof(SampleCounts)};
 
 /// Twice as many as voxels with samples may be, so that few look for theirs for long.
-uint32_t placesFor(bool attributes, const VoxelGrid& grid, int64_t samples) {
+uint32_t placesFor(bool attributes, const voxels::VoxelGrid& grid, int64_t samples) {
   if (!attributes) return 1;
   return static_cast<uint32_t>(
       std::bit_ceil(static_cast<uint64_t>(2 * std::max<int64_t>(std::min(samples, grid.count()), 1))));
@@ -20,8 +20,8 @@ uint32_t placesFor(bool attributes, const VoxelGrid& grid, int64_t samples) {
 
 }  // namespace
 
-SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes,
-                             int views, int64_t samples, bool scrolls)
+SampledVolume::SampledVolume(gl::Context& context, const voxels::VoxelGrid& grid, glm::dvec3 anchor,
+                             bool attributes, int views, int64_t samples, bool scrolls)
     : grid_(grid),
       anchor_(anchor),
       occupancy_(context, grid, anchor),
@@ -37,7 +37,7 @@ SampledVolume::SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::d
   }
   state_.clearUint(0);
   if (scrolls) {
-    entered_ = &context.programs().compute("renderer/voxels/clean_up.comp.glsl", [&] {
+    entered_ = &context.programs().compute("renderer/incremental_voxels/clean_up.comp.glsl", [&] {
       gl::ShaderDefines defines = this->defines();
       defines["TOROIDAL"] = defines["FORGET"] = defines["ENTERED"] = "1";
       return defines;
@@ -117,4 +117,4 @@ gl::ShaderDefines SampledVolume::defines() const {
   return defines;
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -4,7 +4,7 @@
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/frame/seen_point.glsl"
 #include "renderer/frame/surface_buffers.glsl"
-#include "renderer/voxels/depth_views.glsl"
+#include "renderer/incremental_voxels/depth_views.glsl"
 
 #if VIEWS > 1
 uniform vec3 lightPosition;   // relative to the anchor

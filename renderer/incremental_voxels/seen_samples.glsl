@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples of depth images on a grid of points, and the voxels that they lie in.
-#include "renderer/voxels/depth_views.glsl"
+#include "renderer/incremental_voxels/depth_views.glsl"
 
 uniform int pointsPerSide, subsets, subset;
 uniform vec2 pointShift;  // of all points, in cells of the grid; 0.5: the cells' middles

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/depth_tiles.h"
+#include "renderer/incremental_voxels/depth_tiles.h"
 
 #include <epoxy/gl.h>
 
 #include <cassert>
 
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 DepthTiles::DepthTiles(gl::Context& context, const std::vector<glm::ivec2>& viewSizesPx)
-    : program_(context.programs().compute("renderer/voxels/depth_tiles.comp.glsl")) {
+    : program_(context.programs().compute("renderer/incremental_voxels/depth_tiles.comp.glsl")) {
   for (const glm::ivec2 sizePx : viewSizesPx)
     tiles_.emplace_back(gl::Format::RG32F, (sizePx + kDepthTile - 1) / kDepthTile);
 }
@@ -37,4 +37,4 @@ int64_t DepthTiles::bytes() const {
   return sum;
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/depth_view.h"
+#include "renderer/incremental_voxels/depth_view.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "renderer/frame/g_buffer.h"
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
 constexpr double kMostTangent = 3.7320508075688772;  // 75 degrees
@@ -84,8 +84,8 @@ void LightMap::draw(frame::Frame& frame, const scene::Bounds& box) {
   raster_.draw(frame, frame.geometry(), frustum);
 }
 
-void configureViews(const gl::Program& program, const std::vector<DepthView>& views, const VoxelGrid& grid,
-                    glm::dvec3 anchor) {
+void configureViews(const gl::Program& program, const std::vector<DepthView>& views,
+                    const voxels::VoxelGrid& grid, glm::dvec3 anchor) {
   const glm::dmat4 fromVoxels =
       glm::scale(glm::translate(glm::dmat4(1.0), grid.origin - anchor), glm::dvec3(grid.voxelSize));
   for (size_t i = 0; i < views.size(); ++i) {
@@ -103,4 +103,4 @@ void configureViews(const gl::Program& program, const std::vector<DepthView>& vi
   }
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/single_pass.h"
+#include "renderer/incremental_voxels/single_pass.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 SinglePass::SinglePass(gl::Context& context, const CleanUpSettings& settings, const SampledVolume& volume,
                        int views, int used, const std::vector<glm::ivec2>& tiledPx)
     : settings_(settings),
-      program_(context.programs().compute("renderer/voxels/single_pass.comp.glsl",
+      program_(context.programs().compute("renderer/incremental_voxels/single_pass.comp.glsl",
                                           disproofDefines(settings, volume, views, used, !tiledPx.empty()))) {
   if (!tiledPx.empty()) tiles_.emplace(context, tiledPx);
 }
@@ -24,4 +24,4 @@ void SinglePass::run(const frame::Frame& frame, const SampledVolume& volume,
   dispatchBricks(program_, volume.grid(), counts.x * counts.y * counts.z);
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

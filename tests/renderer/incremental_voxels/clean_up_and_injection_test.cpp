@@ -5,35 +5,25 @@
 #include <cmath>
 #include <memory>
 
-#include "renderer/frame/scene_on_gpu.h"
+#include "renderer/incremental_voxels/clean_up.h"
+#include "renderer/incremental_voxels/depth_view.h"
+#include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/sampled_volume.h"
+#include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/depth_view.h"
 #include "renderer/voxels/exact_voxels.h"
-#include "renderer/voxels/injection.h"
-#include "renderer/voxels/sampled_volume.h"
-#include "renderer/voxels/single_pass.h"
+#include "tests/renderer/voxels/voxelizer_fixture.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
 /// A slanted wall behind everything, in general position.
 constexpr glm::dvec3 kWallAt{0.1, 0.2, -1.4};
 glm::dvec3 wallNormal() { return glm::normalize(glm::dvec3(0.35, -0.2, 1.0)); }
 
-class IncrementalTest : public testing::Test {
+class CleanUpAndInjectionTest : public voxels::VoxelizerFixture {
  protected:
-  static gl::Context& context() {
-    static const std::unique_ptr<gl::Context> kContext = gl::createHeadlessContext();
-    return *kContext;
-  }
-  void SetUp() override { context().makeCurrent(); }
-  void TearDown() override {
-    for (const gl::DebugMessage& message : context().takeDebugMessages())
-      if (!message.performance || context().device().software) ADD_FAILURE() << message.text;
-  }
-
   static scene::Scene wall() {
     scene::Scene scene;
     const glm::dvec3 n = wallNormal(), u = glm::normalize(glm::cross({0.0, 1.0, 0.0}, n)),
@@ -43,8 +33,8 @@ class IncrementalTest : public testing::Test {
     scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
     return scene;
   }
-  static VoxelGrid grid() {
-    VoxelGrid grid;
+  static voxels::VoxelGrid grid() {
+    voxels::VoxelGrid grid;
     grid.origin = {-1.1, -0.9, -2.2};
     grid.voxelSize = 0.11;
     grid.resolution = {21, 17, 26};
@@ -110,9 +100,9 @@ struct BiasCase {
 // All voxels are filled; those are emptied whose middle lies before the wall that is seen there by more than
 // the bias, and no others: neither beside the image nor behind the eye. With the light's image as well,
 // either empties what it sees through.
-TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
+TEST_F(CleanUpAndInjectionTest, ClearsWhatLiesBeforeTheSeenSurface) {
   const scene::Scene scene = wall();
-  const VoxelGrid grid = this->grid();
+  const voxels::VoxelGrid grid = this->grid();
   const double s = grid.voxelSize;
   const frame::GpuScene gpuScene(scene);
   const PlainView camera = plainCamera(scene.camera.at(0.0), {96, 80});
@@ -167,11 +157,11 @@ TEST_F(IncrementalTest, ClearsWhatLiesBeforeTheSeenSurface) {
       }
       const SampleCounts counts = volume.counts();
       EXPECT_EQ(counts.kept + counts.cleared, grid.count());
-      EXPECT_EQ(counts.kept, countOf(left));
+      EXPECT_EQ(counts.kept, voxels::countOf(left));
     }
 }
 
-std::vector<uint8_t> injected(gl::Context& context, const scene::Scene& scene, const VoxelGrid& grid,
+std::vector<uint8_t> injected(gl::Context& context, const scene::Scene& scene, const voxels::VoxelGrid& grid,
                               const PointSettings& points, int steps, glm::ivec2 sizePx,
                               SampleCounts* counts = nullptr) {
   const frame::GpuScene gpuScene(scene);
@@ -192,9 +182,9 @@ std::vector<uint8_t> injected(gl::Context& context, const scene::Scene& scene, c
 }
 
 // One point a pixel: exactly the voxels that pixel centres' points of the wall lie in.
-TEST_F(IncrementalTest, FillsTheVoxelsThatSeenPointsLieIn) {
+TEST_F(CleanUpAndInjectionTest, FillsTheVoxelsThatSeenPointsLieIn) {
   const scene::Scene scene = wall();
-  const VoxelGrid grid = this->grid();
+  const voxels::VoxelGrid grid = this->grid();
   constexpr int kSide = 64;
   SampleCounts counts;
   const std::vector<uint8_t> found =
@@ -222,50 +212,51 @@ TEST_F(IncrementalTest, FillsTheVoxelsThatSeenPointsLieIn) {
         if (grid.contains(near)) possible[static_cast<size_t>(grid.indexOf(near))] = 1;
       }
     }
-  EXPECT_EQ(compare(found, expected).missing, 0);
-  EXPECT_EQ(compare(found, possible).extra, 0);
-  EXPECT_GT(countOf(expected), 200);
+  EXPECT_EQ(voxels::compare(found, expected).missing, 0);
+  EXPECT_EQ(voxels::compare(found, possible).extra, 0);
+  EXPECT_GT(voxels::countOf(expected), 200);
   EXPECT_NEAR(counts.samples, double(samples), 0.02 * double(samples));
-  EXPECT_EQ(counts.touched, countOf(found));
+  EXPECT_EQ(counts.touched, voxels::countOf(found));
 }
 
 // The order of points changes nothing, nor does a split into subsets once each has had its turn.
-TEST_F(IncrementalTest, OrderAndSubsetsOfPointsDoNotMatter) {
+TEST_F(CleanUpAndInjectionTest, OrderAndSubsetsOfPointsDoNotMatter) {
   const scene::Scene scene = wall();
-  const VoxelGrid grid = this->grid();
+  const voxels::VoxelGrid grid = this->grid();
   for (const int side : {37, 64}) {
     const std::vector<uint8_t> rows = injected(context(), scene, grid, {.side = side}, 1, {90, 70});
-    EXPECT_GT(countOf(rows), 100);
+    EXPECT_GT(voxels::countOf(rows), 100);
     EXPECT_EQ(injected(context(), scene, grid, {.side = side, .pattern = PointPattern::Blocks}, 1, {90, 70}),
               rows);
     for (const int subsets : {2, 3, 8}) {
       const PointSettings points{.side = side, .subsets = subsets};
       EXPECT_EQ(injected(context(), scene, grid, points, subsets, {90, 70}), rows) << side << " " << subsets;
-      const int64_t first = countOf(injected(context(), scene, grid, points, 1, {90, 70}));
-      EXPECT_LT(first, countOf(rows));
+      const int64_t first = voxels::countOf(injected(context(), scene, grid, points, 1, {90, 70}));
+      EXPECT_LT(first, voxels::countOf(rows));
     }
   }
 }
 
 // A point in each cell and never the same: a grid coarser than the image finds what one as fine as it finds.
-TEST_F(IncrementalTest, ShiftedPointsFillHolesInTime) {
+TEST_F(CleanUpAndInjectionTest, ShiftedPointsFillHolesInTime) {
   const scene::Scene scene = wall();
-  VoxelGrid grid = this->grid();
+  voxels::VoxelGrid grid = this->grid();
   grid.voxelSize *= 0.5, grid.resolution *= 2;
-  const int64_t all = countOf(injected(context(), scene, grid, {.side = 128}, 1, glm::ivec2(128)));
+  const int64_t all = voxels::countOf(injected(context(), scene, grid, {.side = 128}, 1, glm::ivec2(128)));
   const PointSettings coarse{.side = 24, .shift = false}, shifted{.side = 24, .shift = true};
-  const int64_t still = countOf(injected(context(), scene, grid, coarse, 32, glm::ivec2(128)));
-  EXPECT_EQ(still, countOf(injected(context(), scene, grid, coarse, 1, glm::ivec2(128))));
+  const int64_t still = voxels::countOf(injected(context(), scene, grid, coarse, 32, glm::ivec2(128)));
+  EXPECT_EQ(still, voxels::countOf(injected(context(), scene, grid, coarse, 1, glm::ivec2(128))));
   EXPECT_LT(still, 0.7 * double(all));
-  EXPECT_GT(countOf(injected(context(), scene, grid, shifted, 32, glm::ivec2(128))), 0.98 * double(all));
+  EXPECT_GT(voxels::countOf(injected(context(), scene, grid, shifted, 32, glm::ivec2(128))),
+            0.98 * double(all));
 }
 
 // Reflectance, normal turned to the viewer, and radiance of a lit wall, in the voxel of a point of it.
-TEST_F(IncrementalTest, AttributesAreThoseOfTheSeenSurface) {
+TEST_F(CleanUpAndInjectionTest, AttributesAreThoseOfTheSeenSurface) {
   scene::Scene scene = wall();
   scene.materials[0].albedo = {0.2F, 0.4F, 0.8F};
   scene.materials[0].emission = {0.0F, 0.5F, 0.0F};
-  const VoxelGrid grid = this->grid();
+  const voxels::VoxelGrid grid = this->grid();
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, {128, 128});
   LightMap map(context(), 256, frame::Raster::Auto);
@@ -309,9 +300,9 @@ TEST_F(IncrementalTest, AttributesAreThoseOfTheSeenSurface) {
 
 // What the single pass fills lies within the bias of the wall, and nothing that is closer than that and seen
 // is left out.
-TEST_F(IncrementalTest, SinglePassFillsWhatLiesWithinTheBias) {
+TEST_F(CleanUpAndInjectionTest, SinglePassFillsWhatLiesWithinTheBias) {
   const scene::Scene scene = wall();
-  const VoxelGrid grid = this->grid();
+  const voxels::VoxelGrid grid = this->grid();
   const frame::GpuScene gpuScene(scene);
   const PlainView camera = plainCamera(scene.camera.at(0.0), {96, 80});
   frame::Frame frame(context(), scene, gpuScene, camera.sizePx);
@@ -338,4 +329,4 @@ TEST_F(IncrementalTest, SinglePassFillsWhatLiesWithinTheBias) {
 }
 
 }  // namespace
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/moving_bricks.h"
+#include "renderer/incremental_voxels/moving_bricks.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
-int64_t bricksOf(const VoxelGrid& grid) {
+int64_t bricksOf(const voxels::VoxelGrid& grid) {
   const glm::ivec3 counts = brickCounts(grid);
   return int64_t{counts.x} * counts.y * counts.z;
 }
 
 }  // namespace
 
-MovingBricks::MovingBricks(const scene::Scene& scene, const VoxelGrid& grid)
+MovingBricks::MovingBricks(const scene::Scene& scene, const voxels::VoxelGrid& grid)
     : grid_(grid), isListed_(static_cast<size_t>(bricksOf(grid))), buffer_(4 * bricksOf(grid), nullptr) {
   for (const scene::PartMotion& motion : scene.motions) {
     Moving moving{motion, {}};
@@ -62,10 +62,10 @@ void MovingBricks::add(double timeS) {
                   &listed_[before]);
 }
 
-void MovingBricks::restart(const VoxelGrid& grid) {
+void MovingBricks::restart(const voxels::VoxelGrid& grid) {
   grid_ = grid;
   std::fill(isListed_.begin(), isListed_.end(), uint8_t{0});
   listed_.clear();
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

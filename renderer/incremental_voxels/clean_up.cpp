@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/clean_up.h"
+#include "renderer/incremental_voxels/clean_up.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
-constexpr const char* kCleanUpShader = "renderer/voxels/clean_up.comp.glsl";
+constexpr const char* kCleanUpShader = "renderer/incremental_voxels/clean_up.comp.glsl";
 constexpr const char* kBiasNames[kMostDepthViews] = {"viewBias[0]", "viewBias[1]"};
 
 gl::ShaderDefines with(gl::ShaderDefines defines, const char* name) {
@@ -41,7 +41,7 @@ const SettingsTable<CleanUpSettings>& CleanUpSettings::table() {
   return kTable;
 }
 
-double biasOf(const CleanUpBias& bias, const DepthView& view, const VoxelGrid& grid) {
+double biasOf(const CleanUpBias& bias, const DepthView& view, const voxels::VoxelGrid& grid) {
   if (std::holds_alternative<RadiusBias>(bias)) return 0.5 * std::sqrt(3.0) * grid.voxelSize;
   if (std::holds_alternative<ListingBias>(bias)) return 3.0 * grid.voxelSize;
   if (const auto* fixed = std::get_if<FixedBias>(&bias)) return fixed->sides * grid.voxelSize;
@@ -49,13 +49,14 @@ double biasOf(const CleanUpBias& bias, const DepthView& view, const VoxelGrid& g
   return 0.5 * grid.voxelSize * (std::abs(m[0][2]) + std::abs(m[1][2]) + std::abs(m[2][2]));
 }
 
-glm::ivec3 brickCounts(const VoxelGrid& grid) {
+glm::ivec3 brickCounts(const voxels::VoxelGrid& grid) {
   return (grid.resolution + glm::ivec3(31, kBrickSide - 1, kBrickSide - 1)) /
          glm::ivec3(32, kBrickSide, kBrickSide);
 }
 
 void configureDisproof(const gl::Program& program, const CleanUpSettings& settings,
-                       const std::vector<DepthView>& views, const VoxelGrid& grid, glm::dvec3 anchor) {
+                       const std::vector<DepthView>& views, const voxels::VoxelGrid& grid,
+                       glm::dvec3 anchor) {
   configureViews(program, views, grid, anchor);
   for (size_t i = 0; i < views.size(); ++i)
     program.set(kBiasNames[i], static_cast<float>(biasOf(settings.bias, views[i], grid)));
@@ -72,7 +73,7 @@ gl::ShaderDefines disproofDefines(const CleanUpSettings& settings, const Sampled
   return defines;
 }
 
-void dispatchBricks(const gl::Program& program, const VoxelGrid& grid, int bricks) {
+void dispatchBricks(const gl::Program& program, const voxels::VoxelGrid& grid, int bricks) {
   const glm::ivec3 counts = brickCounts(grid);
   program.set("brickCount", bricks);
   program.set("brickCountX", counts.x);
@@ -126,4 +127,4 @@ void Forget::run(const SampledVolume& volume) const {
   dispatchBricks(program_, volume.grid(), counts.x * counts.y * counts.z);
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether depth images show that there is nothing in a voxel (Gaitatzes 2012, section 7.4.1): the surface that is seen where the
 // voxel's middle is lies farther away than the middle, by more than a bias.
-#include "renderer/voxels/depth_views.glsl"
+#include "renderer/incremental_voxels/depth_views.glsl"
 
 uniform float viewBias[VIEWS];  // world units
 uniform bool skyDisproves;      // pixels that see nothing see through the voxel

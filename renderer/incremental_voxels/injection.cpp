@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "renderer/voxels/injection.h"
+#include "renderer/incremental_voxels/injection.h"
 
 #include <epoxy/gl.h>
 
@@ -7,9 +7,9 @@
 #include <bit>
 #include <cmath>
 
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
 gl::ShaderDefines samplingDefines(const PointSettings& settings, const SampledVolume& volume, int views,
@@ -82,10 +82,10 @@ Injection::Injection(gl::Context& context, const PointSettings& settings, const 
                      int views, int used)
     : settings_(settings),
       used_(used),
-      inject_(context.programs().compute("renderer/voxels/inject_samples.comp.glsl",
+      inject_(context.programs().compute("renderer/incremental_voxels/inject_samples.comp.glsl",
                                          samplingDefines(settings, volume, views, used))) {
   if (volume.hasAttributes())
-    settle_ = &context.programs().compute("renderer/voxels/settle_samples.comp.glsl",
+    settle_ = &context.programs().compute("renderer/incremental_voxels/settle_samples.comp.glsl",
                                           samplingDefines(settings, volume, views, used));
 }
 
@@ -117,4 +117,4 @@ void Injection::run(const frame::Frame& frame, const SampledVolume& volume,
   dispatch(*settle_, volume.places(), 1);
 }
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/injection.h"
+#include "renderer/incremental_voxels/clean_up.h"
+#include "renderer/incremental_voxels/injection.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// Clean-up and injection in one, at voxels' middles instead of at an image's points: without holes within
 /// what a view sees, its surfaces as thick as the bias has them. Source: Gaitatzes 2012, section 7.4.3.
@@ -27,4 +27,4 @@ class SinglePass {
   const gl::Program& program_;
 };
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Least and largest depth of each tile of a depth image; 0 where nothing is seen. A tile a group, a pixel an invocation.
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
 layout(local_size_x = kDepthTile, local_size_y = kDepthTile) in;
 layout(binding = kViewDepthsUnit) uniform sampler2D depths;

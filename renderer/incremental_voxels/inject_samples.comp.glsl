@@ -3,9 +3,9 @@
 // their order does not matter. A sample an invocation, a view a layer of groups. Sums are in a hash table: which place of it is a
 // voxel's depends on the order of execution; what comes of it does not.
 #include "renderer/frame/frame_bindings.h"
-#include "renderer/voxels/seen_samples.glsl"
+#include "renderer/incremental_voxels/seen_samples.glsl"
 #ifdef ATTRIBUTES
-#include "renderer/voxels/seen_surface.glsl"
+#include "renderer/incremental_voxels/seen_surface.glsl"
 #endif
 
 layout(local_size_x = kSampleGroup) in;

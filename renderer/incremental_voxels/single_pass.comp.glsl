@@ -3,9 +3,9 @@
 // view sees there is filled with what that pixel shows; one before it is emptied; one behind it stays. A brick a group, which
 // first finds what becomes of each voxel and then shares those among its invocations that take attributes.
 #include "renderer/frame/frame_bindings.h"
-#include "renderer/voxels/brick_disproof.glsl"
+#include "renderer/incremental_voxels/brick_disproof.glsl"
 #ifdef ATTRIBUTES
-#include "renderer/voxels/seen_surface.glsl"
+#include "renderer/incremental_voxels/seen_surface.glsl"
 #endif
 
 layout(local_size_x = kBrickLanes) in;

@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "renderer/gl/buffer.h"
+#include "renderer/incremental_voxels/clean_up.h"
 #include "renderer/scene/scene.h"
-#include "renderer/voxels/clean_up.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// Bricks of a grid in which parts that move have been: only there can a voxel become stale. A brick stays in
 /// the list, as nobody knows whether all of it has been seen since.
 class MovingBricks {
  public:
-  MovingBricks(const scene::Scene& scene, const VoxelGrid& grid);
+  MovingBricks(const scene::Scene& scene, const voxels::VoxelGrid& grid);
   /// Where the parts are at a time of the frame.
   void add(double timeS);
   /// The grid has another place.
-  void restart(const VoxelGrid& grid);
+  void restart(const voxels::VoxelGrid& grid);
   /// Numbers, as CleanUp takes them.
   const gl::Buffer& list() const { return buffer_; }
   int count() const { return static_cast<int>(listed_.size()); }
@@ -28,11 +28,11 @@ class MovingBricks {
     scene::PartMotion motion;
     scene::Bounds rest;
   };
-  VoxelGrid grid_;
+  voxels::VoxelGrid grid_;
   std::vector<Moving> parts_;
   std::vector<uint8_t> isListed_;
   std::vector<uint32_t> listed_;
   gl::Buffer buffer_;
 };
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

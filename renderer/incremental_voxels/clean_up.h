@@ -7,11 +7,11 @@
 
 #include "experiments/base/enum_names.h"
 #include "experiments/base/settings_table.h"
-#include "renderer/voxels/depth_tiles.h"
-#include "renderer/voxels/depth_view.h"
-#include "renderer/voxels/sampled_volume.h"
+#include "renderer/incremental_voxels/depth_tiles.h"
+#include "renderer/incremental_voxels/depth_view.h"
+#include "renderer/incremental_voxels/sampled_volume.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// How far before the seen surface a voxel's middle must lie for the voxel to be empty. Source: Gaitatzes
 /// 2012, section 7.4.1, whose text and listing differ.
@@ -34,7 +34,7 @@ struct FixedBias {
 using CleanUpBias = std::variant<TightBias, RadiusBias, ListingBias, FixedBias>;
 
 /// World units.
-double biasOf(const CleanUpBias& bias, const DepthView& view, const VoxelGrid& grid);
+double biasOf(const CleanUpBias& bias, const DepthView& view, const voxels::VoxelGrid& grid);
 
 /// Which pixels have to see through a voxel.
 enum class Proof {
@@ -89,12 +89,12 @@ class Forget {
 };
 
 /// Bricks along each axis of a grid. A brick has 32 x 8 x 8 voxels; its number counts along x first, then y.
-glm::ivec3 brickCounts(const VoxelGrid& grid);
+glm::ivec3 brickCounts(const voxels::VoxelGrid& grid);
 /// Uniforms of views and biases of shaders that include disproof.glsl.
 void configureDisproof(const gl::Program& program, const CleanUpSettings& settings,
-                       const std::vector<DepthView>& views, const VoxelGrid& grid, glm::dvec3 anchor);
+                       const std::vector<DepthView>& views, const voxels::VoxelGrid& grid, glm::dvec3 anchor);
 gl::ShaderDefines disproofDefines(const CleanUpSettings& settings, const SampledVolume& volume, int views,
                                   int used, bool tiled = false);
-void dispatchBricks(const gl::Program& program, const VoxelGrid& grid, int bricks);
+void dispatchBricks(const gl::Program& program, const voxels::VoxelGrid& grid, int bricks);
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -2,20 +2,20 @@
 // A grid that scrolls, against one that is made anew at each place.
 #include <algorithm>
 
+#include "renderer/incremental_voxels/clean_up.h"
+#include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
-#include "renderer/voxels/clean_up.h"
-#include "renderer/voxels/injection.h"
-#include "renderer/voxels/single_pass.h"
 #include "tests/renderer/voxels/voxelizer_fixture.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 namespace {
 
-class ScrollingTest : public VoxelizerFixture {
+class ScrollingTest : public voxels::VoxelizerFixture {
  protected:
-  static VoxelGrid smallGrid() {
-    VoxelGrid grid;
+  static voxels::VoxelGrid smallGrid() {
+    voxels::VoxelGrid grid;
     grid.origin = {-1.1, -0.9, -2.2};
     grid.voxelSize = 0.11;
     grid.resolution = {37, 17, 26};
@@ -40,7 +40,7 @@ class ScrollingTest : public VoxelizerFixture {
 // Voxels filled at random in the world: after each move the grid holds those that it has held without a
 // break since they were filled, and no others.
 TEST_F(ScrollingTest, WhatStaysInTheGridStaysInItsPlace) {
-  const VoxelGrid start = smallGrid();
+  const voxels::VoxelGrid start = smallGrid();
   const glm::ivec3 size = start.resolution;
   SampledVolume volume(context(), start, glm::dvec3(0.0), false, 1, 1, true);
   scene::Random random(3);
@@ -67,7 +67,7 @@ TEST_F(ScrollingTest, WhatStaysInTheGridStaysInItsPlace) {
 // After any moves a step fills the same voxels with the same attributes as in a grid made at that place.
 TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
   const scene::Scene scene = boxes();
-  const VoxelGrid start = smallGrid();
+  const voxels::VoxelGrid start = smallGrid();
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, {96, 80});
   const PointSettings points{.side = 96, .shift = false};
@@ -76,7 +76,7 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
   const Injection injection(context(), points, scrolled, 1, 1);
   for (const glm::ivec3 move : {glm::ivec3(5, -3, 4), glm::ivec3(-8, 5, 2), glm::ivec3(4, 1, -5)}) {
     at += move;
-    VoxelGrid grid = start;
+    voxels::VoxelGrid grid = start;
     grid.origin += glm::dvec3(at) * start.voxelSize;
     SampledVolume fresh(context(), grid, gpuScene.anchor(), true, 1, points.perStep());
     const Injection anew(context(), points, fresh, 1, 1);
@@ -118,7 +118,7 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
 // there, with bricks decided by tiles or not.
 TEST_F(ScrollingTest, ACleanUpLeavesWhatItLeavesInANewGrid) {
   const scene::Scene scene = boxes();
-  const VoxelGrid start = smallGrid();
+  const voxels::VoxelGrid start = smallGrid();
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, {96, 80});
   const std::vector<uint8_t> full(static_cast<size_t>(start.count()), 1);
@@ -128,7 +128,7 @@ TEST_F(ScrollingTest, ACleanUpLeavesWhatItLeavesInANewGrid) {
     for (const bool single : {false, true}) {
       std::vector<std::vector<uint8_t>> left;
       for (const bool scrolls : {false, true}) {
-        VoxelGrid grid = start;
+        voxels::VoxelGrid grid = start;
         grid.origin += glm::dvec3(6, -4, 5) * start.voxelSize;
         SampledVolume volume(context(), scrolls ? start : grid, gpuScene.anchor(), false, 1, 1, scrolls);
         const CleanUp cleanUp(context(), settings, volume, 1, 1, tiled);
@@ -152,4 +152,4 @@ TEST_F(ScrollingTest, ACleanUpLeavesWhatItLeavesInANewGrid) {
 }
 
 }  // namespace
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

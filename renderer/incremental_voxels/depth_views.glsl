@@ -2,7 +2,7 @@
 // Depth images as configureViews() binds them, VIEWS in number. View space: world units, z along the view, x to the right and y
 // down in the image. A depth is near / z, reversed, without a far plane, so that its precision is the same at any distance; 0:
 // nothing is seen.
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.glsl"
 
 layout(binding = kViewDepthsUnit) uniform sampler2D viewDepths[VIEWS];

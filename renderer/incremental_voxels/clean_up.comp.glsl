@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Empties, in place, those voxels of which a depth image shows that there is nothing in them (Gaitatzes 2012, section 7.4.1). A
 // group takes a brick: it lists the brick's occupied voxels, so that none of its invocations waits for empty ones.
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.glsl"
 #ifdef FORGET
 #ifdef ENTERED  // what the grid did not hold before it moved by a number of voxels
@@ -13,7 +13,7 @@ bool isDisproved(ivec3 voxel) { return true; }
 const int kDisproofStays = 0, kDisproofSurface = 1, kDisproofCleared = 2;
 int disproofOfBrick(ivec3 first) { return kDisproofSurface; }
 #else
-#include "renderer/voxels/brick_disproof.glsl"
+#include "renderer/incremental_voxels/brick_disproof.glsl"
 #endif
 
 layout(local_size_x = kBrickLanes) in;

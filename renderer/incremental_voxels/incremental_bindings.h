@@ -6,7 +6,7 @@
 #include "renderer/gl/shader_shared.h"
 
 #ifdef __cplusplus
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 #endif
 
 // Depth images: the camera's, then the light's, each with one unit for depths and one for triangles.
@@ -58,5 +58,5 @@ const int kFootprintSteps = 3;
 const float kSampleNudge = 0.0009765625f;
 
 #ifdef __cplusplus
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels
 #endif

@@ -5,9 +5,9 @@
 
 #include "renderer/gl/context.h"
 #include "renderer/gl/texture.h"
-#include "renderer/voxels/depth_view.h"
+#include "renderer/incremental_voxels/depth_view.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// The least and the largest depth of each tile of depth images, by which whole bricks of voxels are decided.
 class DepthTiles {
@@ -24,4 +24,4 @@ class DepthTiles {
   std::vector<gl::Texture> tiles_;
 };
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "renderer/gl/context.h"
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.h"
 
-namespace limen::voxels {
+namespace limen::incremental_voxels {
 
 /// Voxels that are filled from samples of depth images and kept from step to step: a bit each and, if asked
 /// for, attributes. A voxel's attributes stay until samples fall into it again, or it is emptied.
@@ -17,12 +17,12 @@ class SampledVolume {
  public:
   /// Samples of one step at most. `views`: that give samples. Starts empty. Throws Error if the device
   /// cannot hold it. `scrolls`: voxels stay as the grid moves, as far as they are still in it.
-  SampledVolume(gl::Context& context, const VoxelGrid& grid, glm::dvec3 anchor, bool attributes, int views,
-                int64_t samples, bool scrolls = false);
+  SampledVolume(gl::Context& context, const voxels::VoxelGrid& grid, glm::dvec3 anchor, bool attributes,
+                int views, int64_t samples, bool scrolls = false);
 
   /// Whether a surface was found. The volume itself configures programs, as its grid may have moved.
-  const Volume& occupancy() const { return occupancy_; }
-  const VoxelGrid& grid() const { return grid_; }
+  const voxels::Volume& occupancy() const { return occupancy_; }
+  const voxels::VoxelGrid& grid() const { return grid_; }
   /// Another place for the grid, a whole number of voxels off if it scrolls. Empties the volume, or, if it
   /// scrolls, those voxels that were not in the grid: nothing is copied, as the grid's places wrap around.
   void moveTo(glm::dvec3 origin);
@@ -63,9 +63,9 @@ class SampledVolume {
     gl::Texture normal, albedo, light;
     gl::Buffer sums;
   };
-  VoxelGrid grid_;
+  voxels::VoxelGrid grid_;
   glm::dvec3 anchor_;
-  Volume occupancy_;
+  voxels::Volume occupancy_;
   std::optional<Attributes> attributes_;
   uint32_t places_;
   gl::Buffer state_;
@@ -74,4 +74,4 @@ class SampledVolume {
   int turn_ = 0;
 };
 
-}  // namespace limen::voxels
+}  // namespace limen::incremental_voxels

@@ -2,7 +2,7 @@
 // Attributes of touched voxels from their sums, which are emptied, as is the table that these are in: a place an invocation.
 // Light is what the camera's samples show, which holds that of all lights; where there are none, the sum over the lights of what
 // their samples show (Gaitatzes 2012, section 7.5).
-#include "renderer/voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/incremental_bindings.h"
 
 layout(local_size_x = kSampleGroup) in;
 layout(binding = kSampledNormalImage, rgba16f) uniform writeonly image2DArray normalImage;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What depth images say of a whole brick: kDisproofCleared or kDisproofStays, if they say it of each of its voxels, otherwise
 // kDisproofSurface. All invocations of a group call it.
-#include "renderer/voxels/disproof.glsl"
+#include "renderer/incremental_voxels/disproof.glsl"
 
 #ifdef TILED
 layout(binding = kViewTilesUnit) uniform sampler2D viewTiles[VIEWS];
