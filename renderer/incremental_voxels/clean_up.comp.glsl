@@ -3,13 +3,9 @@
 // group takes a brick: it lists the brick's occupied voxels, so that none of its invocations waits for empty ones.
 #include "renderer/incremental_voxels/incremental_bindings.h"
 #include "renderer/voxels/volume.glsl"
-#ifdef FORGET
-#ifdef ENTERED  // what the grid did not hold before it moved by a number of voxels
+#ifdef FORGET  // what the grid did not hold before it moved by a number of voxels
 uniform int shiftX, shiftY, shiftZ;
 bool isDisproved(ivec3 voxel) { return !isInGrid(voxel + ivec3(shiftX, shiftY, shiftZ)); }
-#else
-bool isDisproved(ivec3 voxel) { return true; }
-#endif
 const int kDisproofStays = 0, kDisproofSurface = 1, kDisproofCleared = 2;
 int disproofOfBrick(ivec3 first) { return kDisproofSurface; }
 #else

@@ -118,13 +118,4 @@ void CleanUp::dispatch(const gl::Program& program, const SampledVolume& volume,
   dispatchBricks(program, volume.grid(), bricks);
 }
 
-Forget::Forget(gl::Context& context, const SampledVolume& volume)
-    : program_(context.programs().compute(kCleanUpShader, with(volume.defines(), "FORGET"))) {}
-
-void Forget::run(const SampledVolume& volume) const {
-  volume.bind(program_);
-  const glm::ivec3 counts = brickCounts(volume.grid());
-  dispatchBricks(program_, volume.grid(), counts.x * counts.y * counts.z);
-}
-
 }  // namespace limen::incremental_voxels

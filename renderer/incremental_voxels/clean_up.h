@@ -78,16 +78,6 @@ class CleanUp {
   const gl::Program &everywhere_, &listed_;
 };
 
-/// Empties all voxels that are occupied, for volumes that keep nothing from step to step.
-class Forget {
- public:
-  Forget(gl::Context& context, const SampledVolume& volume);
-  void run(const SampledVolume& volume) const;
-
- private:
-  const gl::Program& program_;
-};
-
 /// Bricks along each axis of a grid. A brick has 32 x 8 x 8 voxels; its number counts along x first, then y.
 glm::ivec3 brickCounts(const voxels::VoxelGrid& grid);
 /// Uniforms of views and biases of shaders that include disproof.glsl.

@@ -15,10 +15,10 @@ namespace limen::incremental_voxels {
 class MovingBricks {
  public:
   MovingBricks(const scene::Scene& scene, const voxels::VoxelGrid& grid);
-  /// Where the parts are at a time of the frame.
-  void add(double timeS);
-  /// The grid has another place.
-  void restart(const voxels::VoxelGrid& grid);
+  /// Where the parts are at a time of the frame. `wrap`: where voxel (0, 0, 0) is stored.
+  void add(double timeS, glm::ivec3 wrap = glm::ivec3(0));
+  /// The grid has moved by so many voxels. What scrolls keeps its bricks.
+  void moveTo(const voxels::VoxelGrid& grid, glm::ivec3 by);
   /// Numbers, as CleanUp takes them.
   const gl::Buffer& list() const { return buffer_; }
   int count() const { return static_cast<int>(listed_.size()); }
@@ -28,6 +28,7 @@ class MovingBricks {
     scene::PartMotion motion;
     scene::Bounds rest;
   };
+  void list(int brick);
   voxels::VoxelGrid grid_;
   std::vector<Moving> parts_;
   std::vector<uint8_t> isListed_;

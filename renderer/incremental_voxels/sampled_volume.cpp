@@ -25,6 +25,7 @@ SampledVolume::SampledVolume(gl::Context& context, const voxels::VoxelGrid& grid
     : grid_(grid),
       anchor_(anchor),
       occupancy_(context, grid, anchor),
+      scrolls_(scrolls),
       places_(placesFor(attributes, grid, samples)),
       state_(kStateHeader + 4 * int64_t{places_}, nullptr) {
   const glm::ivec3 size = grid.resolution;
@@ -34,16 +35,13 @@ SampledVolume::SampledVolume(gl::Context& context, const voxels::VoxelGrid& grid
     attributes_.emplace(Attributes{layers(gl::Format::RGBA16F), layers(gl::Format::RGBA16F),
                                    layers(gl::Format::RGBA16F), gl::Buffer(4 * words * places_, nullptr)});
     attributes_->sums.clearUint(0);
+    for (const gl::Texture* texture : {&attributes_->normal, &attributes_->albedo, &attributes_->light})
+      texture->clear(glm::vec4(0.0F));
   }
   state_.clearUint(0);
-  if (scrolls) {
-    entered_ = &context.programs().compute("renderer/incremental_voxels/clean_up.comp.glsl", [&] {
-      gl::ShaderDefines defines = this->defines();
-      defines["TOROIDAL"] = defines["FORGET"] = defines["ENTERED"] = "1";
-      return defines;
-    }());
-  }
-  clear();
+  gl::ShaderDefines defines = this->defines();
+  defines["FORGET"] = "1";
+  forget_ = &context.programs().compute("renderer/incremental_voxels/clean_up.comp.glsl", defines);
 }
 
 int64_t SampledVolume::bytes() const {
@@ -54,28 +52,29 @@ int64_t SampledVolume::bytes() const {
   return sum;
 }
 
-void SampledVolume::clear() const {
-  occupancy_.clear();
-  if (!attributes_) return;
-  for (const gl::Texture* texture : {&attributes_->normal, &attributes_->albedo, &attributes_->light})
-    texture->clear(glm::vec4(0.0F));
-}
+void SampledVolume::clear() const { forgetEntered(grid_.resolution); }
 
-void SampledVolume::moveTo(glm::dvec3 origin) {
+glm::ivec3 SampledVolume::moveTo(glm::dvec3 origin) {
+  const glm::ivec3 size = grid_.resolution;
   const glm::dvec3 voxels = glm::round((origin - grid_.origin) / grid_.voxelSize);
   grid_.origin = origin;
-  if (!scrolls() || glm::any(glm::greaterThanEqual(glm::abs(voxels), glm::dvec3(grid_.resolution)))) {
-    clear();
-    return;
+  glm::ivec3 shift = size;
+  if (scrolls_) {
+    // Nothing stays of a grid that moves by its own size.
+    shift = glm::ivec3(glm::clamp(voxels, -glm::dvec3(size), glm::dvec3(size)));
+    wrap_ = ((wrap_ + shift) % size + size) % size;
   }
-  const glm::ivec3 shift(voxels), size = grid_.resolution;
-  wrap_ = ((wrap_ + shift) % size + size) % size;
-  bind(*entered_);
-  entered_->set("shiftX", shift.x);
-  entered_->set("shiftY", shift.y);
-  entered_->set("shiftZ", shift.z);
+  forgetEntered(shift);
+  return shift;
+}
+
+void SampledVolume::forgetEntered(glm::ivec3 shift) const {
+  bind(*forget_);
+  forget_->set("shiftX", shift.x);
+  forget_->set("shiftY", shift.y);
+  forget_->set("shiftZ", shift.z);
   const glm::ivec3 counts = brickCounts(grid_);
-  dispatchBricks(*entered_, grid_, counts.x * counts.y * counts.z);
+  dispatchBricks(*forget_, grid_, counts.x * counts.y * counts.z);
 }
 
 std::vector<uint8_t> SampledVolume::readOccupied() const {
@@ -93,7 +92,7 @@ std::vector<uint8_t> SampledVolume::readOccupied() const {
 void SampledVolume::configure(const gl::Program& program) const {
   occupancy_.configure(program);
   program.set("gridOrigin", glm::vec3(grid_.origin - anchor_));
-  if (!scrolls()) return;
+  if (!scrolls_) return;
   program.set("wrapX", wrap_.x);
   program.set("wrapY", wrap_.y);
   program.set("wrapZ", wrap_.z);
@@ -113,7 +112,7 @@ void SampledVolume::bind(const gl::Program& program) const {
 gl::ShaderDefines SampledVolume::defines() const {
   gl::ShaderDefines defines;
   if (attributes_) defines["ATTRIBUTES"] = "1";
-  if (scrolls()) defines["TOROIDAL"] = "1";
+  if (scrolls_) defines["TOROIDAL"] = "1";
   return defines;
 }
 

@@ -25,8 +25,11 @@ class SampledVolume {
   const voxels::VoxelGrid& grid() const { return grid_; }
   /// Another place for the grid, a whole number of voxels off if it scrolls. Empties the volume, or, if it
   /// scrolls, those voxels that were not in the grid: nothing is copied, as the grid's places wrap around.
-  void moveTo(glm::dvec3 origin);
-  bool scrolls() const { return entered_ != nullptr; }
+  /// Returns by how many voxels it moved; where nothing stays, by all that an axis has.
+  glm::ivec3 moveTo(glm::dvec3 origin);
+  bool scrolls() const { return scrolls_; }
+  /// Where voxel (0, 0, 0) is stored.
+  glm::ivec3 wrap() const { return wrap_; }
   /// Texel of textures, and bit of occupancy(), of a voxel.
   glm::ivec3 storedVoxel(glm::ivec3 voxel) const { return (voxel + wrap_) % grid_.resolution; }
   /// As Volume::readOccupied(), in the grid's order.
@@ -40,6 +43,7 @@ class SampledVolume {
   const gl::Texture& light() const { return attributes_->light; }
   int64_t bytes() const;
 
+  /// Visits the occupied voxels alone: clearing textures of many layers takes a GPU far longer.
   void clear() const;
   /// The next step begins: its counts are apart from the last one's.
   void turn() { turn_ = 1 - turn_; }
@@ -59,6 +63,8 @@ class SampledVolume {
   uint32_t places() const { return places_; }
 
  private:
+  /// Empties voxels that the grid did not hold before it moved by `shift`.
+  void forgetEntered(glm::ivec3 shift) const;
   struct Attributes {
     gl::Texture normal, albedo, light;
     gl::Buffer sums;
@@ -67,10 +73,11 @@ class SampledVolume {
   glm::dvec3 anchor_;
   voxels::Volume occupancy_;
   std::optional<Attributes> attributes_;
+  bool scrolls_;
   uint32_t places_;
   gl::Buffer state_;
-  glm::ivec3 wrap_{0};  // where voxel (0, 0, 0) is stored
-  const gl::Program* entered_ = nullptr;
+  glm::ivec3 wrap_{0};
+  const gl::Program* forget_ = nullptr;
   int turn_ = 0;
 };
 

@@ -31,7 +31,7 @@ struct CubeAroundCamera {
   static constexpr const char *kKind = "around_camera", *kSummary = "a cube around the eye, moved in steps";
   double extent = 0.5;
   int step = 8;
-  BoxMove move = BoxMove::Empty;
+  BoxMove move = BoxMove::Scroll;
   bool sway = false;
   static const SettingsTable<CubeAroundCamera>& table();
 };

@@ -59,8 +59,8 @@ IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
     if (around.sway && number_ % 2 == 1) grid.origin.x += around.step * grid.voxelSize;
     if (grid.origin != volume_->grid().origin) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
-      volume_->moveTo(grid.origin);
-      restarted(volume_->grid());
+      const glm::ivec3 by = volume_->moveTo(grid.origin);
+      moved(volume_->grid(), by);
       ++(volume_->scrolls() ? scrolls_ : restarts_);
     }
   }

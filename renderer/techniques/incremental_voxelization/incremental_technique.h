@@ -59,8 +59,8 @@ class IncrementalTechnique : public Technique {
   virtual void update(const Step& step) = 0;
   /// Renders the product of a step; by default a picture of the voxels.
   virtual void show(const Step& step, const gl::Texture& picture);
-  /// The grid moved, and the volume is empty or has scrolled.
-  virtual void restarted(const voxels::VoxelGrid&) {}
+  /// The grid moved by so many voxels; by all of an axis if nothing stayed.
+  virtual void moved(const voxels::VoxelGrid&, glm::ivec3) {}
   /// Whether the volume counts what a step does.
   virtual bool countsSteps() const { return true; }
 

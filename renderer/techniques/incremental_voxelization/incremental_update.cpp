@@ -6,10 +6,7 @@ namespace limen::techniques {
 IncrementalUpdate::IncrementalUpdate(gl::Context& context, const Settings& settings,
                                      const incremental_voxels::SampledVolume& volume, int views, int used)
     : injection_(context, settings.points, volume, views, used) {
-  if (settings.kept)
-    cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
-  else
-    forget_.emplace(context, volume);
+  if (settings.kept) cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
 }
 
 void IncrementalUpdate::run(frame::Frame& frame, const incremental_voxels::SampledVolume& volume,
@@ -19,11 +16,11 @@ void IncrementalUpdate::run(frame::Frame& frame, const incremental_voxels::Sampl
   {
     const auto scope = frame.passes().open("incremental_voxelization/clean_up");
     const glm::dvec3 anchor = frame.gpuScene().anchor();
-    if (forget_) {
-      forget_->run(volume);
+    if (!cleanUp_) {
+      volume.clear();
     } else if (only) {
       cleanUp_->run(volume, views, anchor, only->list(), only->count());
-      only->add(frame.timeS());
+      only->add(frame.timeS(), volume.wrap());
     } else {
       cleanUp_->run(volume, views, anchor);
     }

@@ -30,7 +30,6 @@ class IncrementalUpdate {
 
  private:
   std::optional<incremental_voxels::CleanUp> cleanUp_;
-  std::optional<incremental_voxels::Forget> forget_;
   incremental_voxels::Injection injection_;
 };
 

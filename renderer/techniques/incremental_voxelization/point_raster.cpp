@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 
-#include "experiments/base/error.h"
 #include "renderer/incremental_voxels/clean_up.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
@@ -34,11 +33,6 @@ struct PointRasterSettings {
   VoxelLayout layout = VoxelLayout::Atlas;
   int targets = 4;
   RasterFormat format = RasterFormat::Full;
-  void check() const {
-    if (scrolls(common.box))
-      throw Error("volumes in textures are emptied where the box moves", "box",
-                  "choose move: empty, or incremental_voxelization/two_stage");
-  }
   static const SettingsTable<PointRasterSettings>& table() {
     using S = PointRasterSettings;
     static const SettingsTable<S> kTable = {
@@ -113,6 +107,7 @@ class PointRaster : public IncrementalTechnique {
         copy(*keep_, step, *volumes_[latest_], *volumes_[1 - latest_], view);
         latest_ = 1 - latest_;
       }
+      shift_ = glm::ivec3(0);
     }
     {
       const auto scope = step.frame.passes().open("incremental_voxelization/inject");
@@ -125,9 +120,8 @@ class PointRaster : public IncrementalTechnique {
     pack(step);
   }
 
-  void restarted(const voxels::VoxelGrid&) override {
-    for (const auto& each : volumes_) each->clear();
-  }
+  /// The clean-up that follows empties what the grid did not hold before.
+  void moved(const voxels::VoxelGrid&, glm::ivec3 by) override { shift_ = by; }
 
  private:
   struct SeenBuffers {
@@ -164,6 +158,9 @@ class PointRaster : public IncrementalTechnique {
     from.bindSources();
     to.bindTargets();
     program.set("cleanedView", view);
+    program.set("shiftX", shift_.x);
+    program.set("shiftY", shift_.y);
+    program.set("shiftZ", shift_.z);
     program.use();
     const glm::ivec3 size = step.volume.grid().resolution;
     glDispatchCompute(static_cast<GLuint>((size.x + kGroupSide - 1) / kGroupSide),
@@ -218,6 +215,7 @@ class PointRaster : public IncrementalTechnique {
                     *draw_ = nullptr;
   GLuint vertexArray_ = 0;
   int used_ = 1;
+  glm::ivec3 shift_{0};  // of the grid since the last step
 };
 
 const RegisteredTechnique<PointRaster> kPointRasterRegistered{

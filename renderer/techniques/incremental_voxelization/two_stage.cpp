@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/incremental_update.h"
 
@@ -32,11 +31,6 @@ struct TwoStageSettings {
   CleanUpRegion region = CleanUpRegion::Everywhere;
   BrickDecision bricks = BrickDecision::None;
   incremental_voxels::PointSettings points;
-  void check() const {
-    if (region == CleanUpRegion::Moving && scrolls(common.box))
-      throw Error("bricks in which parts have been are those of a box that does not scroll", "region",
-                  "choose region: everywhere, or a box that is emptied where it moves");
-  }
   static const SettingsTable<TwoStageSettings>& table() {
     using S = TwoStageSettings;
     static const SettingsTable<S> kTable = {
@@ -76,8 +70,8 @@ class TwoStage : public IncrementalTechnique {
                  bricks_ ? &*bricks_ : nullptr);
   }
 
-  void restarted(const voxels::VoxelGrid& grid) override {
-    if (bricks_) bricks_->restart(grid);
+  void moved(const voxels::VoxelGrid& grid, glm::ivec3 by) override {
+    if (bricks_) bricks_->moveTo(grid, by);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
+#include "renderer/voxels/exact_voxels.h"
 #include "tests/renderer/voxels/voxelizer_fixture.h"
 
 namespace limen::incremental_voxels {
@@ -111,6 +112,28 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
           }
         }
     }
+  }
+}
+
+// As a new volume: the bits, and every texel of the attributes.
+TEST_F(ScrollingTest, ClearingLeavesNothing) {
+  const scene::Scene scene = boxes();
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {96, 80});
+  const PointSettings points{.side = 96, .shift = false};
+  for (const bool scrolls : {false, true}) {
+    SampledVolume volume(context(), smallGrid(), gpuScene.anchor(), true, 1, points.perStep(), scrolls);
+    const Injection injection(context(), points, volume, 1, 1);
+    if (scrolls) volume.moveTo(smallGrid().origin + glm::dvec3(5.0, -3.0, 4.0) * smallGrid().voxelSize);
+    frame.begin();
+    injection.run(frame, volume, {cameraView(frame)}, {}, 0);
+    frame.end();
+    EXPECT_GT(voxels::countOf(volume.readOccupied()), 50);
+    volume.clear();
+    EXPECT_EQ(voxels::countOf(volume.readOccupied()), 0);
+    for (const gl::Texture* texture : {&volume.normal(), &volume.albedo(), &volume.light()})
+      for (int z = 0; z < smallGrid().resolution.z; ++z)
+        for (const float value : texture->readLayer(z).data) ASSERT_EQ(value, 0.0F);
   }
 }
 
