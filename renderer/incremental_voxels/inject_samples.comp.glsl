@@ -3,18 +3,13 @@
 // their order does not matter. A sample an invocation, a view a layer of groups. Sums are in a hash table: which place of it is a
 // voxel's depends on the order of execution; what comes of it does not.
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/incremental_voxels/sampled_volume.glsl"
 #include "renderer/incremental_voxels/seen_samples.glsl"
 #ifdef ATTRIBUTES
 #include "renderer/incremental_voxels/seen_surface.glsl"
 #endif
 
 layout(local_size_x = kSampleGroup) in;
-layout(binding = kSampledBitsImage, r32ui) uniform uimage2DArray bitsImage;
-layout(std430, binding = kSampleStateBuffer) buffer State {
-  SampleCounts sampleCounts[2];
-  uint sampleKeys[];
-};
-uniform int turn;
 
 shared uint addedCount, sampleCount, touchedCount;
 

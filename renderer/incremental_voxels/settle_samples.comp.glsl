@@ -2,17 +2,10 @@
 // Attributes of touched voxels from their sums, which are emptied, as is the table that these are in: a place an invocation.
 // Light is what the camera's samples show, which holds that of all lights; where there are none, the sum over the lights of what
 // their samples show (Gaitatzes 2012, section 7.5).
-#include "renderer/incremental_voxels/incremental_bindings.h"
+#include "renderer/incremental_voxels/sampled_volume.glsl"
 
 layout(local_size_x = kSampleGroup) in;
-layout(binding = kSampledNormalImage, rgba16f) uniform writeonly image2DArray normalImage;
-layout(binding = kSampledAlbedoImage, rgba16f) uniform writeonly image2DArray albedoImage;
-layout(binding = kSampledLightImage, rgba16f) uniform writeonly image2DArray lightImage;
 layout(std430, binding = kSampleSumsBuffer) buffer Sums { uint sampleSums[]; };
-layout(std430, binding = kSampleStateBuffer) buffer State {
-  SampleCounts sampleCounts[2];
-  uint sampleKeys[];
-};
 uniform uint placeMask;
 uniform float sampleScale, lightScale;
 
@@ -27,16 +20,14 @@ void main() {
   if (key == 0u) return;
   sampleKeys[place] = 0u;
   const uint words = kSampleWords + kSampleViewWords * uint(USED_VIEWS), first = words * place;
-  const ivec3 voxel = ivec3(key & 1023u, key >> 10 & 1023u, key >> 20 & 1023u);
+  const ivec3 stored = ivec3(key & 1023u, key >> 10 & 1023u, key >> 20 & 1023u);
   const float each = 1.0 / float(sampleSums[first]);
-  imageStore(normalImage, voxel, vec4(each / sampleScale * signedSum(first + 1u), 1.0));
-  imageStore(albedoImage, voxel, vec4(each / sampleScale * signedSum(first + 4u), 1.0));
   vec3 light = vec3(0.0);
   for (uint view = 0u; view < uint(USED_VIEWS); ++view) {
     const uint own = first + kSampleWords + kSampleViewWords * view, count = sampleSums[own];
     if (count > 0u) light += signedSum(own + 1u) / (lightScale * float(count));
     if (view == 0u && count > 0u) break;
   }
-  imageStore(lightImage, voxel, vec4(light, 1.0));
+  storeAttributes(stored, each / sampleScale * signedSum(first + 1u), each / sampleScale * signedSum(first + 4u), light);
   for (uint i = 0u; i < words; ++i) sampleSums[first + i] = 0u;
 }

@@ -3,24 +3,12 @@
 // view sees there is filled with what that pixel shows; one before it is emptied; one behind it stays. A brick a group, which
 // first finds what becomes of each voxel and then shares those among its invocations that take attributes.
 #include "renderer/frame/frame_bindings.h"
+#include "renderer/incremental_voxels/brick.glsl"
 #include "renderer/incremental_voxels/brick_disproof.glsl"
 #ifdef ATTRIBUTES
 #include "renderer/incremental_voxels/seen_surface.glsl"
 #endif
 
-layout(local_size_x = kBrickLanes) in;
-layout(binding = kSampledBitsImage, r32ui) uniform uimage2DArray bitsImage;
-layout(std430, binding = kSampleStateBuffer) buffer State {
-  SampleCounts sampleCounts[2];
-};
-uniform int turn, brickCount, brickCountX, brickCountY;
-#ifdef ATTRIBUTES
-layout(binding = kSampledNormalImage, rgba16f) uniform writeonly image2DArray normalImage;
-layout(binding = kSampledAlbedoImage, rgba16f) uniform writeonly image2DArray albedoImage;
-layout(binding = kSampledLightImage, rgba16f) uniform writeonly image2DArray lightImage;
-#endif
-
-shared uint words[kBrickWords];
 shared uint keptCount, clearedCount, addedCount;
 #ifdef ATTRIBUTES
 shared uint seenCount;
@@ -35,17 +23,7 @@ void update(ivec3 stored, int view) {
   const ivec2 pixel = ivec2(place);
   const vec3 at = (voxelsFromView[view] * vec4(viewNear[view] / depthAt(view, pixel) * viewRay(view, pixel), 1.0)).xyz;
   const SeenSurface surface = surfaceOf(view, pixel, at);
-  imageStore(normalImage, stored, vec4(surface.normal, 1.0));
-  imageStore(albedoImage, stored, vec4(surface.albedo, 1.0));
-  imageStore(lightImage, stored, vec4(surface.light, 1.0));
-}
-#endif
-
-#ifdef ATTRIBUTES
-void erase(ivec3 voxel) {
-  imageStore(normalImage, voxel, vec4(0.0));
-  imageStore(albedoImage, voxel, vec4(0.0));
-  imageStore(lightImage, voxel, vec4(0.0));
+  storeAttributes(stored, surface.normal, surface.albedo, surface.light);
 }
 #endif
 
@@ -63,31 +41,20 @@ bool isFilled(ivec3 voxel, bool before, out int by) {
   return before || by >= 0;
 }
 
-// Voxel `number` of the brick that begins with `first`.
-ivec3 voxelIn(ivec3 first, uint number) {
-  const uint at = number / 32u;
-  return ivec3(32 * first.x + int(number % 32u), first.yz + ivec2(at % uint(kBrickSide), at / uint(kBrickSide)));
-}
-
 void main() {
   const uint lane = gl_LocalInvocationIndex;
-  const int brick = int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
   if (lane == 0u) {
     keptCount = clearedCount = addedCount = 0u;
 #ifdef ATTRIBUTES
     seenCount = 0u;
 #endif
-    if (brick == 0) sampleCounts[1 - turn] = SampleCounts(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
   }
+  emptyNextCounts();
   barrier();
-  if (brick >= brickCount) return;
-  const ivec3 first = ivec3(1, kBrickSide, kBrickSide) *
-                      ivec3(brick % brickCountX, brick / brickCountX % brickCountY, brick / (brickCountX * brickCountY));
-  const ivec3 texel = first + ivec3(0, lane % uint(kBrickSide), lane / uint(kBrickSide));
-  const bool isIn = lane < uint(kBrickWords) && texel.y < gridSizeY && texel.z < gridSizeZ;
-  const uint word = isIn ? imageLoad(bitsImage, texel).x : 0u;
-  if (lane < uint(kBrickWords)) words[lane] = word;
-  if (word != 0u) atomicAdd(keptCount, uint(bitCount(word)));
+  if (groupNumber() >= brickCount) return;
+  const ivec3 first = firstTexel(groupNumber());
+  const BrickWord word = loadWord(first);
+  if (word.bits != 0u) atomicAdd(keptCount, uint(bitCount(word.bits)));
   barrier();
   const int whole = disproofOfBrick(ivec3(32 * first.x, first.yz));
   const uint before = keptCount;
@@ -104,10 +71,10 @@ void main() {
     int by = -1;
     const bool was = (words[at] >> bit & 1u) != 0u, is = whole != kDisproofCleared && isFilled(voxelStoredAt(voxel), was, by);
 #ifdef ATTRIBUTES
-    if (was && !is) erase(voxel);
     if (by >= 0) seen[atomicAdd(seenCount, 1u)] = i | uint(by) << 16;
 #endif
     if (was && !is) {
+      eraseAttributes(voxel);
       atomicAnd(words[at], ~(1u << bit));
       atomicAdd(clearedCount, 1u);
     }
@@ -120,7 +87,7 @@ void main() {
 #ifdef ATTRIBUTES
   for (uint i = lane; i < seenCount; i += uint(kBrickLanes)) update(voxelIn(first, seen[i] & 0xffffu), int(seen[i] >> 16));
 #endif
-  if (isIn && words[lane] != word) imageStore(bitsImage, texel, uvec4(words[lane]));
+  storeWord(word);
   if (lane == 0u) {
     if (before > clearedCount) atomicAdd(sampleCounts[turn].kept, before - clearedCount);
     if (clearedCount > 0u) atomicAdd(sampleCounts[turn].cleared, clearedCount);
