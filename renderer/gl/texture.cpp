@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/base/error.h"
+#include "renderer/gl/fills.h"
 
 namespace limen::gl {
 namespace {
@@ -154,7 +155,7 @@ void Texture::bindImage(uint32_t unit, Access access, int level) const {
   glBindImageTexture(unit, id_, level, GL_TRUE, 0, accessOf(access), factsOf(format_).internal);
 }
 
-// By a framebuffer: NVIDIA's driver takes many times as long for glClearTexImage.
+// A framebuffer's clear: llvmpipe takes longer for glClearTexImage.
 uint32_t Texture::clearTarget(int level) const {
   if (!clearTarget_) glCreateFramebuffers(1, &clearTarget_);
   glNamedFramebufferTexture(clearTarget_, GL_COLOR_ATTACHMENT0, id_, level);
@@ -164,11 +165,17 @@ uint32_t Texture::clearTarget(int level) const {
 
 void Texture::clear(glm::vec4 value, int level) const {
   assert(format_ != Format::Depth32F && factsOf(format_).type == GL_FLOAT);
+  const Fills::Level whole{id_, level, levelSize(sizePx_, level), layers_, internalFormat(format_)};
+  if (const Fills* fills = Fills::forBytes(whole.texels() * bytesPerTexel(format_)))
+    return fills->fill(whole, value);
   glClearNamedFramebufferfv(clearTarget(level), GL_COLOR, 0, glm::value_ptr(value));
 }
 
 void Texture::clearUint(glm::uvec4 value, int level) const {
   assert(factsOf(format_).type == GL_UNSIGNED_INT);
+  const Fills::Level whole{id_, level, levelSize(sizePx_, level), layers_, internalFormat(format_)};
+  if (const Fills* fills = Fills::forBytes(whole.texels() * bytesPerTexel(format_)))
+    return fills->fill(whole, value);
   glClearNamedFramebufferuiv(clearTarget(level), GL_COLOR, 0, glm::value_ptr(value));
 }
 
