@@ -5,7 +5,15 @@
 
 #include <utility>
 
+#include "renderer/gl/fills.h"
+
 namespace limen::gl {
+namespace {
+
+constexpr int64_t kMostFilled =
+    (int64_t{1} << 31) - 4;  // bytes of a storage block, as NVIDIA's driver has it
+
+}  // namespace
 
 Buffer::Buffer(int64_t bytes, const void* data) : bytes_(bytes > 0 ? bytes : 16) {
   glCreateBuffers(1, &id_);
@@ -31,6 +39,10 @@ void Buffer::bindStorage(uint32_t binding, int64_t offset, int64_t bytes) const 
 void Buffer::bindUniform(uint32_t binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
 
 void Buffer::clearUint(uint32_t value) const {
+  if (const Fills* fills = Fills::forBytes(bytes_); fills && bytes_ <= kMostFilled) {
+    fills->fillBuffer(id_, bytes_, value);
+    return;
+  }
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "experiments/base/error.h"
+#include "renderer/gl/fills.h"
 
 namespace limen::gl {
 namespace {
@@ -36,6 +37,7 @@ Context::~Context() = default;
 
 void Context::deleteObjects() {
   makeCurrent();
+  Fills::gone(*this);
   programs_.clear();
 }
 
@@ -51,6 +53,7 @@ void Context::initialize(const std::string& platform) {
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  Fills::madeCurrent(*this);
 }
 
 std::vector<DebugMessage> Context::takeDebugMessages() { return std::exchange(messages_, {}); }

@@ -13,6 +13,7 @@
 #include "experiments/base/text.h"
 #include "renderer/gl/devices.h"
 #include "renderer/gl/egl_devices.h"
+#include "renderer/gl/fills.h"
 
 namespace limen::gl {
 namespace {
@@ -38,7 +39,10 @@ class EglContext : public Context {
     destroy();
   }
 
-  void makeCurrent() final { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_); }
+  void makeCurrent() final {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    Fills::madeCurrent(*this);
+  }
 
  private:
   void create(const std::string& platform) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/base/error.h"
+#include "renderer/gl/fills.h"
 
 namespace limen::gl {
 namespace {
@@ -118,11 +119,13 @@ Texture Texture::view(int firstLayer, int count) const {
 }
 
 Texture::~Texture() {
+  if (clearTarget_) glDeleteFramebuffers(1, &clearTarget_);
   if (id_) glDeleteTextures(1, &id_);
 }
 
 Texture::Texture(Texture&& other) noexcept
     : id_(std::exchange(other.id_, 0)),
+      clearTarget_(std::exchange(other.clearTarget_, 0)),
       format_(other.format_),
       sizePx_(other.sizePx_),
       levels_(other.levels_),
@@ -131,6 +134,7 @@ Texture::Texture(Texture&& other) noexcept
 
 Texture& Texture::operator=(Texture&& other) noexcept {
   std::swap(id_, other.id_);
+  std::swap(clearTarget_, other.clearTarget_);
   format_ = other.format_, sizePx_ = other.sizePx_, levels_ = other.levels_, layers_ = other.layers_;
   sampling_ = other.sampling_;
   return *this;
@@ -151,13 +155,28 @@ void Texture::bindImage(uint32_t unit, Access access, int level) const {
   glBindImageTexture(unit, id_, level, GL_TRUE, 0, accessOf(access), factsOf(format_).internal);
 }
 
+// A framebuffer's clear: llvmpipe takes longer for glClearTexImage.
+uint32_t Texture::clearTarget(int level) const {
+  if (!clearTarget_) glCreateFramebuffers(1, &clearTarget_);
+  glNamedFramebufferTexture(clearTarget_, GL_COLOR_ATTACHMENT0, id_, level);
+  glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);
+  return clearTarget_;
+}
+
 void Texture::clear(glm::vec4 value, int level) const {
-  const FormatFacts facts = factsOf(format_);
-  glClearTexImage(id_, level, facts.external, GL_FLOAT, glm::value_ptr(value));
+  assert(format_ != Format::Depth32F && factsOf(format_).type == GL_FLOAT);
+  const Fills::Level whole{id_, level, levelSize(sizePx_, level), layers_, internalFormat(format_)};
+  if (const Fills* fills = Fills::forBytes(whole.texels() * bytesPerTexel(format_)))
+    return fills->fill(whole, value);
+  glClearNamedFramebufferfv(clearTarget(level), GL_COLOR, 0, glm::value_ptr(value));
 }
 
 void Texture::clearUint(glm::uvec4 value, int level) const {
-  glClearTexImage(id_, level, factsOf(format_).external, GL_UNSIGNED_INT, glm::value_ptr(value));
+  assert(factsOf(format_).type == GL_UNSIGNED_INT);
+  const Fills::Level whole{id_, level, levelSize(sizePx_, level), layers_, internalFormat(format_)};
+  if (const Fills* fills = Fills::forBytes(whole.texels() * bytesPerTexel(format_)))
+    return fills->fill(whole, value);
+  glClearNamedFramebufferuiv(clearTarget(level), GL_COLOR, 0, glm::value_ptr(value));
 }
 
 Image Texture::read(int level) const {

@@ -59,6 +59,7 @@ class Texture {
   void bindTexture(uint32_t unit) const;
   /// At most 8 image units are guaranteed.
   void bindImage(uint32_t unit, Access access, int level = 0) const;
+  /// All layers. Neither a scissor nor masks of colours may be set.
   void clear(glm::vec4 value, int level = 0) const;
   void clearUint(glm::uvec4 value, int level = 0) const;
 
@@ -76,8 +77,10 @@ class Texture {
  private:
   Texture(uint32_t id, const Texture& of, int layers);
   void setSampling();
+  uint32_t clearTarget(int level) const;
 
   uint32_t id_ = 0;
+  mutable uint32_t clearTarget_ = 0;
   Format format_;
   glm::ivec2 sizePx_;
   int levels_, layers_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "experiments/base/error.h"
+#include "renderer/gl/fills.h"
 #include "renderer/gl/window_library.h"
 
 namespace limen::gl {
@@ -96,7 +97,10 @@ WindowContext::~WindowContext() {
   glfwDestroyWindow(window_);
 }
 
-void WindowContext::makeCurrent() { glfwMakeContextCurrent(window_); }
+void WindowContext::makeCurrent() {
+  glfwMakeContextCurrent(window_);
+  Fills::madeCurrent(*this);
+}
 
 glm::ivec2 WindowContext::framebufferSizePx() const {
   glm::ivec2 size;

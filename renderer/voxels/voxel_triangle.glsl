@@ -2,6 +2,7 @@
 // A triangle among voxels: which columns it may meet, and which voxels of a column it does. All lengths in voxels.
 #include "renderer/frame/scene_buffers.glsl"
 #include "renderer/voxels/volume.glsl"
+#include "renderer/voxels/voxel_axes.glsl"
 
 struct VoxelTriangle {
   vec3 a, b, c;
@@ -29,16 +30,6 @@ bool loadTriangle(uint id, out VoxelTriangle t) {
   const uvec3 vertices = sceneTriangle(id);
   return setUp(t, toVoxels(scenePosition(vertices.x)), toVoxels(scenePosition(vertices.y)), toVoxels(scenePosition(vertices.z)));
 }
-
-int longestAxis(vec3 v) {
-  const vec3 size = abs(v);
-  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-}
-
-ivec2 acrossAxis(int axis) { return ivec2((axis + 1) % 3, (axis + 2) % 3); }
-
-vec2 across(vec3 v, int axis) { return axis == 0 ? v.yz : axis == 1 ? v.zx : v.xy; }
-ivec2 across(ivec3 v, int axis) { return axis == 0 ? v.yz : axis == 1 ? v.zx : v.xy; }
 
 // Voxel from its column and its place along it.
 ivec3 voxelOf(ivec2 column, int place, int axis) {

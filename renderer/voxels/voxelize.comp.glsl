@@ -9,18 +9,12 @@ shared vec3 corners[3 * kVoxelizeGroup];
 shared uint listed;
 shared uint list[kVoxelizeAlone * kVoxelizeGroup];  // lane and column
 
-void enqueue(VoxelTriangle t, uint id, int count) {
+// Columns for which the queue has no place; from x up to y.
+ivec2 enqueue(uint id, int count) {
   const uint parts = uint(count + kVoxelizePart - 1) / uint(kVoxelizePart), at = atomicAdd(queue.queued[queueTurn], parts);
-  for (uint i = 0u; i < parts; ++i) {
-    if (at + i < queueCapacity) {
-      queueParts[at + i] = uvec2(id, uint(kVoxelizePart) * i);
-      continue;
-    }
-    // The queue is full.
-    const Work work = workOf(t);
-    const int from = kVoxelizePart * int(i), to = min(count, from + kVoxelizePart);
-    for (int column = from; column < to; ++column) takeColumn(t, id, work, column);
-  }
+  const uint free = min(queueCapacity - min(queueCapacity, at), parts);
+  for (uint i = 0u; i < free; ++i) queueParts[at + i] = uvec2(id, uint(kVoxelizePart) * i);
+  return ivec2(kVoxelizePart * int(free), count);
 }
 
 void main() {
@@ -29,10 +23,11 @@ void main() {
   if (lane == 0u) listed = 0u;
   barrier();
   VoxelTriangle t;
+  ivec2 own = ivec2(0);
   if (base + lane < triangleCount && loadTriangle(base + lane, t)) {
     const int count = workCount(workOf(t));
     if (count > kVoxelizeAlone)
-      enqueue(t, base + lane, count);
+      own = enqueue(base + lane, count);
     else if (count > 0) {
       corners[3u * lane] = t.a;
       corners[3u * lane + 1u] = t.b;
@@ -42,10 +37,21 @@ void main() {
     }
   }
   barrier();
-  for (uint i = lane; i < listed; i += uint(kVoxelizeGroup)) {
-    const uint from = list[i] >> 16;
-    setUp(t, corners[3u * from], corners[3u * from + 1u], corners[3u * from + 2u]);
-    takeColumn(t, base + from, workOf(t), int(list[i] & 0xffffu));
+  // Its own columns first, while it has the triangle, then those listed: one call, as the compiler copies functions to where they
+  // are called, and NVIDIA's takes seconds for each copy.
+  uint i = lane;
+  while (own.x < own.y || i < listed) {
+    uint from = lane;
+    int column = own.x;
+    if (own.x < own.y) {
+      ++own.x;
+    } else {
+      from = list[i] >> 16;
+      column = int(list[i] & 0xffffu);
+      i += uint(kVoxelizeGroup);
+      setUp(t, corners[3u * from], corners[3u * from + 1u], corners[3u * from + 2u]);
+    }
+    takeColumn(t, base + from, workOf(t), column);
   }
   reportRays();
 }

@@ -96,7 +96,7 @@ std::vector<Counter> IncrementalTechnique::count(frame::Frame& frame) {
       {"beyond_full_mean", percent(own.mean(), diagonal) - percent(whole.mean(), diagonal)},
       {"volume_mib", double(volume_->bytes()) / 1048576.0}};
   if (!countsSteps()) return out;
-  const voxels::SampleCounts counts = volume_->counts();
+  const incremental_voxels::SampleCounts counts = volume_->counts();
   const std::vector<Counter> ofStep = {{"kept_voxels", double(counts.kept)},
                                        {"cleared_voxels", double(counts.cleared)},
                                        {"added_voxels", double(counts.added)},

@@ -29,25 +29,6 @@ const SettingsTable<LightMapSettings>& LightMapSettings::table() {
   return kTable;
 }
 
-const SettingsTable<SequenceSettings>& SequenceSettings::table() {
-  using S = SequenceSettings;
-  static const SettingsTable<S> kTable = {
-      {&S::frames,
-       "frames",
-       {0, 4096},
-       "",
-       "Frames of the camera's path and the parts' motions before the first picture",
-       "Gaitatzes 2012, Fig. 76"},
-      {&S::stepS, "step_s", {1e-6, 60.0}, "s", "Time from one of them to the next"},
-      {&S::lightTurnDeg,
-       "light_turn",
-       {-180.0, 180.0},
-       "deg",
-       "Angle by which the light turns about the scene's middle in each of them; at their end it is in its "
-       "place"}};
-  return kTable;
-}
-
 const SettingsTable<IncrementalSettings>& IncrementalSettings::table() {
   using S = IncrementalSettings;
   static const SettingsTable<S> kTable = {
@@ -59,7 +40,7 @@ const SettingsTable<IncrementalSettings>& IncrementalSettings::table() {
        "Gaitatzes 2012, Table 8"},
       {&S::box, "box", "What the grid's box encloses"},
       {&S::lightMap, "light_map", "Depth image from the middle of the scene's first light"},
-      {&S::sequence, "sequence", "Frames before the picture"}};
+      {&S::sequence, "sequence", "Frames before the picture", "Gaitatzes 2012, Fig. 76"}};
   return kTable;
 }
 

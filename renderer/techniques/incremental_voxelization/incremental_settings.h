@@ -6,6 +6,7 @@
 #include "experiments/base/enum_names.h"
 #include "experiments/base/settings_table.h"
 #include "renderer/scene/scene.h"
+#include "renderer/techniques/frames_before.h"
 #include "renderer/voxels/voxel_grid.h"
 
 namespace limen::techniques {
@@ -30,7 +31,7 @@ struct CubeAroundCamera {
   static constexpr const char *kKind = "around_camera", *kSummary = "a cube around the eye, moved in steps";
   double extent = 0.5;
   int step = 8;
-  BoxMove move = BoxMove::Empty;
+  BoxMove move = BoxMove::Scroll;
   bool sway = false;
   static const SettingsTable<CubeAroundCamera>& table();
 };
@@ -67,19 +68,11 @@ struct LightMapSettings {
   static const SettingsTable<LightMapSettings>& table();
 };
 
-/// Frames before the first picture: what a volume that is kept from frame to frame has seen.
-struct SequenceSettings {
-  int frames = 0;
-  double stepS = 1.0 / 60.0;
-  double lightTurnDeg = 0.0;
-  static const SettingsTable<SequenceSettings>& table();
-};
-
 struct IncrementalSettings {
   int resolution = 64;
   IncrementalBox box = IncrementalBoxOfScene{};
   LightMapSettings lightMap;
-  SequenceSettings sequence;
+  FramesBefore sequence;  ///< what a volume that is kept from frame to frame has seen
   static const SettingsTable<IncrementalSettings>& table();
 };
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "renderer/scene/part_motion.h"
-#include "renderer/techniques/frames_before.h"
 #include "renderer/techniques/voxelization/voxelization_bindings.h"
 #include "renderer/voxels/voxel_bindings.h"
 
@@ -50,26 +49,7 @@ void IncrementalTechnique::prepare(frame::Frame& frame) {
   const int64_t bytes = prepareForm(frame, *volume_, views, used);
   frame.passes().setBytesHeld(kVolumePass, volume_->bytes() + bytes);
   frame.passes().setBytesHeld(kPicturePass, picture_->bytes());
-  renderSequence(frame);
-}
-
-void IncrementalTechnique::renderSequence(frame::Frame& frame) {
-  const double now = frame.timeS();
-  const bool turns = settings_.sequence.lightTurnDeg != 0.0 && !frame.scene().lights.empty();
-  for (int before = settings_.sequence.frames; before > 0; --before) {
-    frame.setTime(now - before * settings_.sequence.stepS);
-    frame.begin();
-    if (turns) {
-      const scene::Scene turned = withLightTurned(frame.scene(), -before * settings_.sequence.lightTurnDeg);
-      frame::Frame other(frame, "sequence", turned);
-      other.begin();
-      step(other);
-    } else {
-      step(frame);
-    }
-    frame.end();
-  }
-  frame.setTime(now);
+  settings_.sequence.renderAll(frame, [&](frame::Frame& before) { step(before); });
 }
 
 IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
@@ -79,12 +59,12 @@ IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
     if (around.sway && number_ % 2 == 1) grid.origin.x += around.step * grid.voxelSize;
     if (grid.origin != volume_->grid().origin) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
-      volume_->moveTo(grid.origin);
-      restarted(volume_->grid());
+      const glm::ivec3 by = volume_->moveTo(grid.origin);
+      moved(volume_->grid(), by);
       ++(volume_->scrolls() ? scrolls_ : restarts_);
     }
   }
-  views_[0] = voxels::cameraView(frame);
+  views_[0] = incremental_voxels::cameraView(frame);
   if (lightMap_) {
     const auto scope = frame.passes().open(kLightMapPass);
     lightMap_->draw(frame, {volume_->grid().origin, volume_->grid().high()});

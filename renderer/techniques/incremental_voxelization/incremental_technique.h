@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "renderer/incremental_voxels/depth_view.h"
+#include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/sampled_volume.h"
 #include "renderer/techniques/incremental_voxelization/incremental_settings.h"
 #include "renderer/techniques/technique.h"
-#include "renderer/voxels/depth_view.h"
-#include "renderer/voxels/injection.h"
-#include "renderer/voxels/sampled_volume.h"
 
 namespace limen::techniques {
 
@@ -30,7 +30,7 @@ class IncrementalTechnique : public Technique {
   std::vector<Counter> count(frame::Frame& frame) final;
   static std::vector<Quantity> quantities();
   /// Valid after prepare().
-  const voxels::SampledVolume& volume() const { return *volume_; }
+  const incremental_voxels::SampledVolume& volume() const { return *volume_; }
 
   static constexpr const char* kFamily = "incremental_voxelization/";
 
@@ -38,9 +38,9 @@ class IncrementalTechnique : public Technique {
   /// What a step is given.
   struct Step {
     frame::Frame& frame;
-    const voxels::SampledVolume& volume;
-    const std::vector<voxels::DepthView>& views;
-    const voxels::SampleLighting& lighting;
+    const incremental_voxels::SampledVolume& volume;
+    const std::vector<incremental_voxels::DepthView>& views;
+    const incremental_voxels::SampleLighting& lighting;
     int number;
   };
   /// Of the views that tell of voxels; valid in prepareForm().
@@ -53,30 +53,29 @@ class IncrementalTechnique : public Technique {
   virtual int64_t samplesPerView() const = 0;
   /// Compiles and allocates; `views` are bound, `used` of them tell of voxels. Returns the bytes that it
   /// holds besides the volume.
-  virtual int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  virtual int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                               int used) = 0;
   /// Brings the volume from the last frame to this one. Opens passes.
   virtual void update(const Step& step) = 0;
   /// Renders the product of a step; by default a picture of the voxels.
   virtual void show(const Step& step, const gl::Texture& picture);
-  /// The grid moved, and the volume is empty or has scrolled.
-  virtual void restarted(const voxels::VoxelGrid&) {}
+  /// The grid moved by so many voxels; by all of an axis if nothing stayed.
+  virtual void moved(const voxels::VoxelGrid&, glm::ivec3) {}
   /// Whether the volume counts what a step does.
   virtual bool countsSteps() const { return true; }
 
  private:
   Step step(frame::Frame& frame);
-  void renderSequence(frame::Frame& frame);
   std::vector<uint8_t> oncePresent(const frame::Frame& frame) const;
 
   IncrementalSettings settings_;
   Attributes attributes_;
-  std::optional<voxels::SampledVolume> volume_;
-  std::optional<voxels::LightMap> lightMap_;
+  std::optional<incremental_voxels::SampledVolume> volume_;
+  std::optional<incremental_voxels::LightMap> lightMap_;
   std::optional<gl::Texture> picture_;
   const gl::Program* show_ = nullptr;
-  std::vector<voxels::DepthView> views_;
-  voxels::SampleLighting lighting_;
+  std::vector<incremental_voxels::DepthView> views_;
+  incremental_voxels::SampleLighting lighting_;
   int number_ = 0, restarts_ = 0, scrolls_ = 0;
 };
 

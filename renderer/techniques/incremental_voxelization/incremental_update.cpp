@@ -4,26 +4,23 @@
 namespace limen::techniques {
 
 IncrementalUpdate::IncrementalUpdate(gl::Context& context, const Settings& settings,
-                                     const voxels::SampledVolume& volume, int views, int used)
+                                     const incremental_voxels::SampledVolume& volume, int views, int used)
     : injection_(context, settings.points, volume, views, used) {
-  if (settings.kept)
-    cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
-  else
-    forget_.emplace(context, volume);
+  if (settings.kept) cleanUp_.emplace(context, *settings.kept, volume, views, used, settings.tiledPx);
 }
 
-void IncrementalUpdate::run(frame::Frame& frame, const voxels::SampledVolume& volume,
-                            const std::vector<voxels::DepthView>& views,
-                            const voxels::SampleLighting& lighting, int step,
-                            voxels::MovingBricks* only) const {
+void IncrementalUpdate::run(frame::Frame& frame, const incremental_voxels::SampledVolume& volume,
+                            const std::vector<incremental_voxels::DepthView>& views,
+                            const incremental_voxels::SampleLighting& lighting, int step,
+                            incremental_voxels::MovingBricks* only) const {
   {
     const auto scope = frame.passes().open("incremental_voxelization/clean_up");
     const glm::dvec3 anchor = frame.gpuScene().anchor();
-    if (forget_) {
-      forget_->run(volume);
+    if (!cleanUp_) {
+      volume.clear();
     } else if (only) {
       cleanUp_->run(volume, views, anchor, only->list(), only->count());
-      only->add(frame.timeS());
+      only->add(frame.timeS(), volume.wrap());
     } else {
       cleanUp_->run(volume, views, anchor);
     }

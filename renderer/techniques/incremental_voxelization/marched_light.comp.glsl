@@ -3,7 +3,7 @@
 // whose light counts if its surface faces the ray. All pixels have the same directions, evenly spread over the sphere and fixed
 // in the world, so that nothing swims.
 #include "renderer/techniques/incremental_voxelization/marched_light_bindings.h"
-#include "renderer/voxels/seen_surface.glsl"
+#include "renderer/incremental_voxels/seen_surface.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kVolumeNormalUnit) uniform sampler2DArray voxelNormals;

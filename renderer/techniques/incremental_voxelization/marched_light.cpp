@@ -17,7 +17,7 @@ namespace {
 
 struct KeptVoxels {
   static constexpr const char *kKind = "kept", *kSummary = "cleaned up and filled in each frame";
-  voxels::CleanUpSettings cleanUp;
+  incremental_voxels::CleanUpSettings cleanUp;
   static const SettingsTable<KeptVoxels>& table() {
     static const SettingsTable<KeptVoxels> kTable = {
         {&KeptVoxels::cleanUp, "clean_up", "When a depth image disproves a voxel"}};
@@ -31,7 +31,7 @@ struct FrameVoxels {
 struct MarchedLightSettings {
   IncrementalSettings common;
   std::variant<KeptVoxels, FrameVoxels> voxels;
-  voxels::PointSettings points;
+  incremental_voxels::PointSettings points;
   int directions = 128;
   double start = 1.5;
   static const SettingsTable<MarchedLightSettings>& table() {
@@ -62,7 +62,7 @@ class MarchedLight : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     IncrementalUpdate::Settings update{.kept = {}, .points = settings_.points};
     if (const auto* kept = std::get_if<KeptVoxels>(&settings_.voxels)) update.kept = kept->cleanUp;
@@ -78,8 +78,9 @@ class MarchedLight : public IncrementalTechnique {
   }
   void show(const Step& step, const gl::Texture& picture) override {
     step.volume.configure(*march_);
-    voxels::configureViews(*march_, step.views, step.volume.grid(), step.frame.gpuScene().anchor());
-    voxels::configureSampleLights(*march_, step.frame, step.lighting);
+    incremental_voxels::configureViews(*march_, step.views, step.volume.grid(),
+                                       step.frame.gpuScene().anchor());
+    incremental_voxels::configureSampleLights(*march_, step.frame, step.lighting);
     step.volume.normal().bindTexture(voxels::kVolumeNormalUnit);
     step.volume.light().bindTexture(kMarchedVoxelLightUnit);
     march_->set("directions", settings_.directions);

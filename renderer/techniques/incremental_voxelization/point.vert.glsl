@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point of the grid to its voxel (Gaitatzes 2012, listing 7.2).
 #include "renderer/techniques/incremental_voxelization/voxel_textures.glsl"
-#include "renderer/voxels/seen_samples.glsl"
+#include "renderer/incremental_voxels/seen_samples.glsl"
 
 layout(binding = kSeenNormalUnit) uniform sampler2D seenNormals;
 layout(binding = kSeenLightUnit) uniform sampler2D seenLights;
@@ -28,8 +28,9 @@ void main() {
     normal = texelFetch(seenNormals, seen.pixel, 0).xyz;
     const vec4 lit = texelFetch(seenLights, seen.pixel, 0);
     light = weighted ? lit.xyz * lit.w : lit.xyz;
-    layer = seen.voxel.z;
-    const ivec2 texel = texelOf(seen.voxel, gridSize()).xy;
+    const ivec3 stored = storedVoxel(seen.voxel);
+    layer = stored.z;
+    const ivec2 texel = texelOf(stored, gridSize()).xy;
     // Row 0 of images is their top.
     gl_Position = vec4(vec2(2.0, -2.0) * (vec2(texel) + 0.5) / vec2(targetSizePx) + vec2(-1.0, 1.0), 0.5, 1.0);
   }

@@ -12,11 +12,10 @@
 #include <optional>
 #include <string>
 
-#include "experiments/base/error.h"
+#include "renderer/incremental_voxels/clean_up.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
 #include "renderer/techniques/incremental_voxelization/voxel_textures.h"
-#include "renderer/voxels/clean_up.h"
 
 namespace limen::techniques {
 namespace {
@@ -28,16 +27,12 @@ constexpr EnumNames<RasterFormat, 2> enumNames(RasterFormat) {
 
 struct PointRasterSettings {
   IncrementalSettings common;
-  voxels::CleanUpSettings cleanUp{.bias = voxels::RadiusBias{}, .proof = voxels::Proof::Centre};
-  voxels::PointSettings points{.shift = false};
+  incremental_voxels::CleanUpSettings cleanUp{.bias = incremental_voxels::RadiusBias{},
+                                              .proof = incremental_voxels::Proof::Centre};
+  incremental_voxels::PointSettings points{.shift = false};
   VoxelLayout layout = VoxelLayout::Atlas;
   int targets = 4;
   RasterFormat format = RasterFormat::Full;
-  void check() const {
-    if (scrolls(common.box))
-      throw Error("volumes in textures are emptied where the box moves", "box",
-                  "choose move: empty, or incremental_voxelization/two_stage");
-  }
   static const SettingsTable<PointRasterSettings>& table() {
     using S = PointRasterSettings;
     static const SettingsTable<S> kTable = {
@@ -76,7 +71,7 @@ class PointRaster : public IncrementalTechnique {
  protected:
   int64_t samplesPerView() const override { return 1; }
   bool countsSteps() const override { return false; }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     used_ = used;
     const glm::ivec3 size = volume.grid().resolution;
@@ -84,8 +79,8 @@ class PointRaster : public IncrementalTechnique {
         settings_.format == RasterFormat::Full ? gl::Format::RGBA32F : gl::Format::RGBA16F;
     for (auto& each : volumes_) each.emplace(size, settings_.layout, settings_.targets, format);
     injected_.emplace(size, settings_.layout, settings_.targets, format);
-    gl::ShaderDefines defines = voxels::disproofDefines(settings_.cleanUp, volume, views, used);
-    defines.merge(voxels::pointDefines(settings_.points));
+    gl::ShaderDefines defines = incremental_voxels::disproofDefines(settings_.cleanUp, volume, views, used);
+    defines.merge(incremental_voxels::pointDefines(settings_.points));
     defineEnum(defines, "LAYOUT", settings_.layout);
     defines["TARGETS"] = std::to_string(settings_.targets);
     defines["FORMAT"] = settings_.format == RasterFormat::Full ? "rgba32f" : "rgba16f";
@@ -112,6 +107,7 @@ class PointRaster : public IncrementalTechnique {
         copy(*keep_, step, *volumes_[latest_], *volumes_[1 - latest_], view);
         latest_ = 1 - latest_;
       }
+      shift_ = glm::ivec3(0);
     }
     {
       const auto scope = step.frame.passes().open("incremental_voxelization/inject");
@@ -124,9 +120,8 @@ class PointRaster : public IncrementalTechnique {
     pack(step);
   }
 
-  void restarted(const voxels::VoxelGrid&) override {
-    for (const auto& each : volumes_) each->clear();
-  }
+  /// The clean-up that follows empties what the grid did not hold before.
+  void moved(const voxels::VoxelGrid&, glm::ivec3 by) override { shift_ = by; }
 
  private:
   struct SeenBuffers {
@@ -142,8 +137,9 @@ class PointRaster : public IncrementalTechnique {
         buffers.emplace(
             SeenBuffers{gl::Texture(gl::Format::RGBA16F, sizePx), gl::Texture(gl::Format::RGBA32F, sizePx)});
       step.volume.configure(*seen_);
-      voxels::configureViews(*seen_, step.views, step.volume.grid(), step.frame.gpuScene().anchor());
-      voxels::configureSampleLights(*seen_, step.frame, step.lighting);
+      incremental_voxels::configureViews(*seen_, step.views, step.volume.grid(),
+                                         step.frame.gpuScene().anchor());
+      incremental_voxels::configureSampleLights(*seen_, step.frame, step.lighting);
       seen_->set("seenView", view);
       seen_->set("pointsPerSide", settings_.points.side);
       buffers->normal.bindImage(kSeenNormalImage, gl::Access::Write);
@@ -156,12 +152,15 @@ class PointRaster : public IncrementalTechnique {
   void copy(const gl::Program& program, const Step& step, const VoxelTextures& from, const VoxelTextures& to,
             int view) const {
     step.volume.configure(program);
-    voxels::configureDisproof(program, settings_.cleanUp, step.views, step.volume.grid(),
-                              step.frame.gpuScene().anchor());
+    incremental_voxels::configureDisproof(program, settings_.cleanUp, step.views, step.volume.grid(),
+                                          step.frame.gpuScene().anchor());
     from.configure(program);
     from.bindSources();
     to.bindTargets();
     program.set("cleanedView", view);
+    program.set("shiftX", shift_.x);
+    program.set("shiftY", shift_.y);
+    program.set("shiftZ", shift_.z);
     program.use();
     const glm::ivec3 size = step.volume.grid().resolution;
     glDispatchCompute(static_cast<GLuint>((size.x + kGroupSide - 1) / kGroupSide),
@@ -173,8 +172,9 @@ class PointRaster : public IncrementalTechnique {
 
   void drawPoints(const Step& step, int view) const {
     step.volume.configure(*draw_);
-    voxels::configureViews(*draw_, step.views, step.volume.grid(), step.frame.gpuScene().anchor());
-    voxels::configurePoints(*draw_, settings_.points, step.number);
+    incremental_voxels::configureViews(*draw_, step.views, step.volume.grid(),
+                                       step.frame.gpuScene().anchor());
+    incremental_voxels::configurePoints(*draw_, settings_.points, step.number);
     injected_->configure(*draw_);
     draw_->set("seenView", view);
     draw_->set("weighted", view > 0 ? 1 : 0);
@@ -210,11 +210,12 @@ class PointRaster : public IncrementalTechnique {
   std::array<std::optional<VoxelTextures>, 2> volumes_;
   size_t latest_ = 0;
   std::optional<VoxelTextures> injected_;
-  std::array<std::optional<SeenBuffers>, voxels::kMostDepthViews> buffers_;
+  std::array<std::optional<SeenBuffers>, incremental_voxels::kMostDepthViews> buffers_;
   const gl::Program *keep_ = nullptr, *replace_ = nullptr, *pack_ = nullptr, *seen_ = nullptr,
                     *draw_ = nullptr;
   GLuint vertexArray_ = 0;
   int used_ = 1;
+  glm::ivec3 shift_{0};  // of the grid since the last step
 };
 
 const RegisteredTechnique<PointRaster> kPointRasterRegistered{

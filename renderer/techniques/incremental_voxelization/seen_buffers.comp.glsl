@@ -2,7 +2,7 @@
 // Normal and light of what each pixel of a view sees, and in the fourth channel of the light the share of a voxel's side squared
 // that the surface in a cell of the grid of points has: the weight of a sample of the light's.
 #include "renderer/techniques/incremental_voxelization/point_raster_bindings.h"
-#include "renderer/voxels/seen_surface.glsl"
+#include "renderer/incremental_voxels/seen_surface.glsl"
 
 layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 layout(binding = kSeenNormalImage, rgba16f) uniform writeonly image2D normalImage;

@@ -12,7 +12,7 @@ namespace {
 struct SingleFrameSettings {
   IncrementalSettings common;
   bool attributes = true;
-  voxels::PointSettings points{.shift = false};
+  incremental_voxels::PointSettings points{.shift = false};
   static const SettingsTable<SingleFrameSettings>& table() {
     using S = SingleFrameSettings;
     static const SettingsTable<S> kTable = {
@@ -32,7 +32,7 @@ class SingleFrame : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     update_.emplace(frame.context(), IncrementalUpdate::Settings{.kept = {}, .points = settings_.points},
                     volume, views, used);

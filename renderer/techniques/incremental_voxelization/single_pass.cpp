@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clean-up and injection in one, at voxels' middles (IV-08). Source: Gaitatzes 2012, section 7.4.3.
-#include "renderer/voxels/single_pass.h"
+#include "renderer/incremental_voxels/single_pass.h"
 
 #include <optional>
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 struct SinglePassSettings {
   IncrementalSettings common;
   bool attributes = true;
-  voxels::CleanUpBias bias = voxels::RadiusBias{};
+  incremental_voxels::CleanUpBias bias = incremental_voxels::RadiusBias{};
   bool sky = true;
   BrickDecision bricks = BrickDecision::None;
   static const SettingsTable<SinglePassSettings>& table() {
@@ -35,12 +35,12 @@ class SinglePassTechnique : public IncrementalTechnique {
   using Settings = SinglePassSettings;
   explicit SinglePassTechnique(const Settings& settings)
       : IncrementalTechnique(settings.common, {.volume = settings.attributes, .lit = settings.attributes}),
-        cleanUp_{.bias = settings.bias, .proof = voxels::Proof::Centre, .sky = settings.sky},
+        cleanUp_{.bias = settings.bias, .proof = incremental_voxels::Proof::Centre, .sky = settings.sky},
         bricks_(settings.bricks) {}
 
  protected:
   int64_t samplesPerView() const override { return 1; }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     pass_.emplace(frame.context(), cleanUp_, volume, views, used,
                   bricks_ == BrickDecision::Tiles ? viewSizesPx(frame, used) : std::vector<glm::ivec2>());
@@ -52,9 +52,9 @@ class SinglePassTechnique : public IncrementalTechnique {
   }
 
  private:
-  voxels::CleanUpSettings cleanUp_;
+  incremental_voxels::CleanUpSettings cleanUp_;
   BrickDecision bricks_;
-  std::optional<voxels::SinglePass> pass_;
+  std::optional<incremental_voxels::SinglePass> pass_;
 };
 
 const RegisteredTechnique<SinglePassTechnique> kSinglePassRegistered{

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/base/error.h"
 #include "renderer/techniques/incremental_voxelization/incremental_technique.h"
 #include "renderer/techniques/incremental_voxelization/incremental_update.h"
 
@@ -28,15 +27,10 @@ constexpr EnumNames<CleanUpRegion, 2> enumNames(CleanUpRegion) {
 struct TwoStageSettings {
   IncrementalSettings common;
   bool attributes = true;
-  voxels::CleanUpSettings cleanUp;
+  incremental_voxels::CleanUpSettings cleanUp;
   CleanUpRegion region = CleanUpRegion::Everywhere;
   BrickDecision bricks = BrickDecision::None;
-  voxels::PointSettings points;
-  void check() const {
-    if (region == CleanUpRegion::Moving && scrolls(common.box))
-      throw Error("bricks in which parts have been are those of a box that does not scroll", "region",
-                  "choose region: everywhere, or a box that is emptied where it moves");
-  }
+  incremental_voxels::PointSettings points;
   static const SettingsTable<TwoStageSettings>& table() {
     using S = TwoStageSettings;
     static const SettingsTable<S> kTable = {
@@ -59,7 +53,7 @@ class TwoStage : public IncrementalTechnique {
 
  protected:
   int64_t samplesPerView() const override { return settings_.points.perStep(); }
-  int64_t prepareForm(frame::Frame& frame, const voxels::SampledVolume& volume, int views,
+  int64_t prepareForm(frame::Frame& frame, const incremental_voxels::SampledVolume& volume, int views,
                       int used) override {
     update_.emplace(frame.context(),
                     IncrementalUpdate::Settings{.kept = settings_.cleanUp,
@@ -76,13 +70,13 @@ class TwoStage : public IncrementalTechnique {
                  bricks_ ? &*bricks_ : nullptr);
   }
 
-  void restarted(const voxels::VoxelGrid& grid) override {
-    if (bricks_) bricks_->restart(grid);
+  void moved(const voxels::VoxelGrid& grid, glm::ivec3 by) override {
+    if (bricks_) bricks_->moveTo(grid, by);
   }
 
  private:
   TwoStageSettings settings_;
-  std::optional<voxels::MovingBricks> bricks_;
+  std::optional<incremental_voxels::MovingBricks> bricks_;
   std::optional<IncrementalUpdate> update_;
 };
 

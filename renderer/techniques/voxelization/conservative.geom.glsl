@@ -76,17 +76,12 @@ void outlineOf(Piece piece) {
 }
 
 void main() {
-  if (!facesAxis(cross(place[1] - place[0], place[2] - place[0]))) return;
-  const float low = min(place[0][AXIS], min(place[1][AXIS], place[2][AXIS]));
-  const float high = max(place[0][AXIS], max(place[1][AXIS], place[2][AXIS]));
-  const int size = gridSize()[AXIS];
-  if (!(high >= -kVoxelSlack && low <= float(size) + kVoxelSlack)) return;
-  const int first = clamp(int(floor(low - kVoxelSlack)), 0, size - 1), last = clamp(int(floor(high + kVoxelSlack)), 0, size - 1);
+  const ivec2 slices = slicesReached(kVoxelSlack);
   Piece whole;
   whole.count = 3;
   for (int i = 0; i < 3; ++i) whole.at[i] = place[i];
   int emitted = 0;
-  for (int slice = first; slice <= last; ++slice) {
+  for (int slice = slices.x; slice <= slices.y; ++slice) {
     Piece piece = whole;
 #ifdef CUT
     piece = cut(cut(whole, float(slice) - kVoxelSlack, 1.0), float(slice + 1) + kVoxelSlack, -1.0);

@@ -207,7 +207,7 @@ std::vector<Quantity> imageStoreQuantities() {
 
 const RegisteredTechnique<ImageStore> kImageStore{
     {.name = "voxelization/image_store",
-     .version = 3,
+     .version = 4,
      .summary = "Triangles into voxels by compute: no geometry shader, no cap, nothing to merge",
      .source = "Gaitatzes 2012, chapter 6 (VX-12, VX-13)",
      .product = ProductKind::Colour,

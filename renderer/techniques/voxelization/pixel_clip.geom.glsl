@@ -7,14 +7,9 @@ layout(location = 0) out float depth;
 layout(location = 1) flat out vec2 range;
 
 void main() {
-  if (!facesAxis(cross(place[1] - place[0], place[2] - place[0]))) return;
-  const float low = min(place[0][AXIS], min(place[1][AXIS], place[2][AXIS]));
-  const float high = max(place[0][AXIS], max(place[1][AXIS], place[2][AXIS]));
-  const int size = gridSize()[AXIS];
-  if (!(high >= -kVoxelSlack && low <= float(size) + kVoxelSlack)) return;
-  const int first = clamp(int(floor(low)), 0, size - 1), last = clamp(int(floor(high)), 0, size - 1);
-  const int most = min(last, first + CAP / 3 - 1);
-  for (int slice = first; slice <= most; ++slice) {
+  const ivec2 slices = slicesReached(0.0);
+  const int size = gridSize()[AXIS], most = min(slices.y, slices.x + CAP / 3 - 1);
+  for (int slice = slices.x; slice <= most; ++slice) {
     for (int i = 0; i < 3; ++i) {
       gl_Position = onLayer(place[i]);
       gl_Layer = slice;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a geometry shader sends a point of a triangle that it assigns to AXIS.
-#include "renderer/voxels/volume.glsl"
+#include "renderer/techniques/voxelization/seen_along.glsl"
 
 layout(triangles) in;
 layout(location = 0) in vec3 place[];
@@ -20,15 +20,15 @@ void carry(vec3 at) {
 #endif
 }
 
-vec2 across(vec3 v) { return AXIS == 0 ? v.yz : AXIS == 1 ? v.zx : v.xy; }
+bool facesAxis(vec3 normal) { return longestAxis(normal) == AXIS; }
 
-// Of axes with equal components the first.
-bool facesAxis(vec3 normal) {
-  const vec3 size = abs(normal);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  return axis == AXIS;
+// First and last of the slices that the triangle reaches, if it is assigned to AXIS; otherwise the last is before the first.
+// `slack`: voxels by which it is taken to reach farther.
+ivec2 slicesReached(float slack) {
+  if (!facesAxis(cross(place[1] - place[0], place[2] - place[0]))) return ivec2(0, -1);
+  const float low = min(place[0][AXIS], min(place[1][AXIS], place[2][AXIS]));
+  const float high = max(place[0][AXIS], max(place[1][AXIS], place[2][AXIS]));
+  const int size = gridSize()[AXIS];
+  if (!(high >= -kVoxelSlack && low <= float(size) + kVoxelSlack)) return ivec2(0, -1);
+  return clamp(ivec2(floor(vec2(low - slack, high + slack))), 0, size - 1);
 }
-
-// Row 0 of images is their top.
-vec4 onLayerAcross(vec2 at) { return vec4(vec2(2.0, -2.0) * at / across(vec3(gridSize())) + vec2(-1.0, 1.0), 0.5, 1.0); }
-vec4 onLayer(vec3 v) { return onLayerAcross(across(v)); }

@@ -201,7 +201,7 @@ class SliceVoxelizer : public VoxelTechnique {
 template <class Form>
 TechniqueInfo sliceInfo() {
   TechniqueInfo info{.name = Form::kName,
-                     .version = 2,
+                     .version = 3,
                      .summary = Form::kSummary,
                      .source = Form::kSource,
                      .product = ProductKind::Colour,

@@ -43,6 +43,26 @@ TEST_F(TextureTest, ClearingReachesOneLevelOnly) {
   }
 }
 
+TEST_F(TextureTest, ClearingAnArrayReachesAllLayersOfOneLevel) {
+  const Texture floats(Format::RGBA16F, {6, 4}, 2, 5), bits(Format::RG32UI, {3, 2}, 1, 300);
+  floats.clear(glm::vec4(0.25F, -2.0F, 3.0F, 0.5F));
+  floats.clear(glm::vec4(7.0F), 1);
+  bits.clearUint({0xffffffffU, 0x80000001U, 0U, 0U});
+  for (int layer = 0; layer < 5; ++layer) {
+    const Image fine = floats.readLayer(layer), coarse = floats.readLayer(layer, 1);
+    for (size_t i = 0; i < fine.data.size(); i += 4)
+      EXPECT_THAT(std::vector<float>(fine.data.begin() + static_cast<long>(i),
+                                     fine.data.begin() + static_cast<long>(i) + 4),
+                  testing::ElementsAre(0.25F, -2.0F, 3.0F, 0.5F));
+    for (const float value : coarse.data) EXPECT_EQ(value, 7.0F);
+  }
+  for (const int layer : {0, 1, 299}) {
+    const std::vector<uint32_t> texels = bits.readUintLayer(layer);
+    ASSERT_EQ(texels.size(), 12U);
+    for (size_t i = 0; i < texels.size(); ++i) EXPECT_EQ(texels[i], i % 2 ? 0x80000001U : 0xffffffffU);
+  }
+}
+
 TEST_F(TextureTest, IntegerTexturesKeepAllBits) {
   const Texture texture(Format::RGBA32UI, {3, 2});
   texture.clearUint({0xffffffffU, 0x80000001U, 0U, 1U});

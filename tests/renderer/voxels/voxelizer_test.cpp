@@ -59,6 +59,27 @@ TEST_F(VoxelizerTest, PlaceAndScaleDoNotMatter) {
     }
 }
 
+// Triangles of a sphere whose normals have equal components keep their axes, and so their voxels, at any size
+// and place. The bounds are off the sphere, so that no border of a voxel touches it.
+TEST_F(VoxelizerTest, EqualComponentsDoNotTakeTurns) {
+  std::vector<uint8_t> first;
+  for (const double scale : {1.0, 1e-4, 0.37, 1e4})
+    for (const double offset : {0.0, 777.7}) {
+      scene::Scene scene;
+      scene::Mesh mesh = scene::sphere(glm::dvec3(0.0), 1.0, 24);
+      for (glm::dvec3& position : mesh.positions) position = scale * (position + offset);
+      scene::addPart(scene, "sphere", mesh, glm::vec3(0.5F));
+      VoxelGrid grid;
+      grid.resolution = glm::ivec3(31, 33, 35);
+      grid.voxelSize = scale * 0.0713;
+      grid.origin = scale * (glm::dvec3(-1.093, -1.157, -1.219) + offset);
+      const std::vector<uint8_t> now = voxelize(scene, grid, Coverage::Dominant);
+      EXPECT_GT(countOf(now), 1000);
+      if (first.empty()) first = now;
+      EXPECT_EQ(compare(now, first).missing + compare(now, first).extra, 0) << scale << " " << offset;
+    }
+}
+
 // A triangle of a hundredth of a voxel between all middle lines is in no thin set, and in the conservative
 // one in its own voxel only.
 TEST_F(VoxelizerTest, TinyTrianglesAreKeptByTheConservativeSetAlone) {

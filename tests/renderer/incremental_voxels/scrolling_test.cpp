@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A grid that scrolls, against one that is made anew at each place.
+#include <algorithm>
+
+#include "renderer/incremental_voxels/clean_up.h"
+#include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/single_pass.h"
+#include "renderer/scene/shapes.h"
+#include "renderer/scene/stage.h"
+#include "renderer/voxels/exact_voxels.h"
+#include "tests/renderer/voxels/voxelizer_fixture.h"
+
+namespace limen::incremental_voxels {
+namespace {
+
+class ScrollingTest : public voxels::VoxelizerFixture {
+ protected:
+  static voxels::VoxelGrid smallGrid() {
+    voxels::VoxelGrid grid;
+    grid.origin = {-1.1, -0.9, -2.2};
+    grid.voxelSize = 0.11;
+    grid.resolution = {37, 17, 26};
+    return grid;
+  }
+  static scene::Scene boxes() {
+    scene::Scene scene;
+    scene::addPart(scene, "wall", scene::box({-1.9, -0.8, -1.9}, {2.9, 0.9, -1.7}),
+                   glm::vec3(0.5F, 0.2F, 0.7F));
+    scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
+                   glm::vec3(0.1F, 0.8F, 0.3F));
+    scene.lights = {scene::lightTowards({1.3, 1.1, 1.9}, {0.0, 0.1, -1.0}, glm::dvec2(0.2))};
+    scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
+    return scene;
+  }
+  /// Moves in voxels: to both sides along each axis, all at once, by more than half, and beyond the grid.
+  static std::vector<glm::ivec3> moves() {
+    return {{3, 0, 0}, {-1, 0, 0}, {0, 5, 0}, {0, -9, 2}, {-20, 7, -13}, {33, 3, 25}, {0, 0, 26}, {5, -5, 5}};
+  }
+};
+
+// Voxels filled at random in the world: after each move the grid holds those that it has held without a
+// break since they were filled, and no others.
+TEST_F(ScrollingTest, WhatStaysInTheGridStaysInItsPlace) {
+  const voxels::VoxelGrid start = smallGrid();
+  const glm::ivec3 size = start.resolution;
+  SampledVolume volume(context(), start, glm::dvec3(0.0), false, 1, 1, true);
+  scene::Random random(3);
+  std::vector<uint8_t> expected(static_cast<size_t>(start.count()));
+  for (uint8_t& one : expected) one = random.uniform(0.0, 1.0) < 0.5 ? 1 : 0;
+  volume.occupancy().writeOccupied(expected);
+  glm::ivec3 at(0);
+  for (const glm::ivec3 move : moves()) {
+    at += move;
+    volume.moveTo(start.origin + glm::dvec3(at) * start.voxelSize);
+    std::vector<uint8_t> next(expected.size());
+    glm::ivec3 v;
+    for (v.z = 0; v.z < size.z; ++v.z)
+      for (v.y = 0; v.y < size.y; ++v.y)
+        for (v.x = 0; v.x < size.x; ++v.x)
+          if (start.contains(v + move))
+            next[static_cast<size_t>(start.indexOf(v))] =
+                expected[static_cast<size_t>(start.indexOf(v + move))];
+    ASSERT_EQ(volume.readOccupied(), next) << move.x << " " << move.y << " " << move.z;
+    expected = next;
+  }
+}
+
+// After any moves a step fills the same voxels with the same attributes as in a grid made at that place.
+TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
+  const scene::Scene scene = boxes();
+  const voxels::VoxelGrid start = smallGrid();
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {96, 80});
+  const PointSettings points{.side = 96, .shift = false};
+  glm::ivec3 at(0);
+  SampledVolume scrolled(context(), start, gpuScene.anchor(), true, 1, points.perStep(), true);
+  const Injection injection(context(), points, scrolled, 1, 1);
+  for (const glm::ivec3 move : {glm::ivec3(5, -3, 4), glm::ivec3(-8, 5, 2), glm::ivec3(4, 1, -5)}) {
+    at += move;
+    voxels::VoxelGrid grid = start;
+    grid.origin += glm::dvec3(at) * start.voxelSize;
+    SampledVolume fresh(context(), grid, gpuScene.anchor(), true, 1, points.perStep());
+    const Injection anew(context(), points, fresh, 1, 1);
+    scrolled.moveTo(grid.origin);
+    // What is left of it goes, so that both begin empty; its places stay where they are.
+    scrolled.clear();
+    frame.begin();
+    const std::vector<DepthView> views = {cameraView(frame)};
+    scrolled.turn();
+    fresh.turn();
+    injection.run(frame, scrolled, views, {}, 0);
+    anew.run(frame, fresh, views, {}, 0);
+    frame.end();
+    EXPECT_EQ(scrolled.readOccupied(), fresh.readOccupied());
+    EXPECT_GT(std::ranges::count(fresh.readOccupied(), uint8_t{1}), 50);
+    std::vector<Image> albedos, normals;
+    for (int z = 0; z < grid.resolution.z; ++z) {
+      albedos.push_back(scrolled.albedo().readLayer(z));
+      normals.push_back(scrolled.normal().readLayer(z));
+    }
+    glm::ivec3 v;
+    for (v.z = 0; v.z < grid.resolution.z; ++v.z) {
+      const Image albedo = fresh.albedo().readLayer(v.z), normal = fresh.normal().readLayer(v.z);
+      for (v.y = 0; v.y < grid.resolution.y; ++v.y)
+        for (v.x = 0; v.x < grid.resolution.x; ++v.x) {
+          const glm::ivec3 stored = scrolled.storedVoxel(v);
+          for (int c = 0; c < 4; ++c) {
+            ASSERT_EQ(albedos[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      albedo.at(v.x, v.y, c));
+            ASSERT_EQ(normals[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      normal.at(v.x, v.y, c));
+          }
+        }
+    }
+  }
+}
+
+// As a new volume: the bits, and every texel of the attributes.
+TEST_F(ScrollingTest, ClearingLeavesNothing) {
+  const scene::Scene scene = boxes();
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {96, 80});
+  const PointSettings points{.side = 96, .shift = false};
+  for (const bool scrolls : {false, true}) {
+    SampledVolume volume(context(), smallGrid(), gpuScene.anchor(), true, 1, points.perStep(), scrolls);
+    const Injection injection(context(), points, volume, 1, 1);
+    if (scrolls) volume.moveTo(smallGrid().origin + glm::dvec3(5.0, -3.0, 4.0) * smallGrid().voxelSize);
+    frame.begin();
+    injection.run(frame, volume, {cameraView(frame)}, {}, 0);
+    frame.end();
+    EXPECT_GT(voxels::countOf(volume.readOccupied()), 50);
+    volume.clear();
+    EXPECT_EQ(voxels::countOf(volume.readOccupied()), 0);
+    for (const gl::Texture* texture : {&volume.normal(), &volume.albedo(), &volume.light()})
+      for (int z = 0; z < smallGrid().resolution.z; ++z)
+        for (const float value : texture->readLayer(z).data) ASSERT_EQ(value, 0.0F);
+  }
+}
+
+// A clean-up, and a single pass, leave of a full grid that has scrolled what they leave of a full one made
+// there, with bricks decided by tiles or not.
+TEST_F(ScrollingTest, ACleanUpLeavesWhatItLeavesInANewGrid) {
+  const scene::Scene scene = boxes();
+  const voxels::VoxelGrid start = smallGrid();
+  const frame::GpuScene gpuScene(scene);
+  frame::Frame frame(context(), scene, gpuScene, {96, 80});
+  const std::vector<uint8_t> full(static_cast<size_t>(start.count()), 1);
+  const CleanUpSettings settings{.bias = RadiusBias{}, .proof = Proof::Support, .sky = true},
+      centre{.bias = RadiusBias{}, .proof = Proof::Centre, .sky = true};
+  for (const std::vector<glm::ivec2>& tiled : {std::vector<glm::ivec2>{}, std::vector<glm::ivec2>{{96, 80}}})
+    for (const bool single : {false, true}) {
+      std::vector<std::vector<uint8_t>> left;
+      for (const bool scrolls : {false, true}) {
+        voxels::VoxelGrid grid = start;
+        grid.origin += glm::dvec3(6, -4, 5) * start.voxelSize;
+        SampledVolume volume(context(), scrolls ? start : grid, gpuScene.anchor(), false, 1, 1, scrolls);
+        const CleanUp cleanUp(context(), settings, volume, 1, 1, tiled);
+        const SinglePass pass(context(), centre, volume, 1, 1, tiled);
+        if (scrolls) volume.moveTo(grid.origin);
+        volume.occupancy().writeOccupied(full);
+        frame.begin();
+        const std::vector<DepthView> views = {cameraView(frame)};
+        volume.turn();
+        if (single)
+          pass.run(frame, volume, views, {});
+        else
+          cleanUp.run(volume, views, gpuScene.anchor());
+        frame.end();
+        left.push_back(volume.readOccupied());
+      }
+      EXPECT_EQ(left[0], left[1]) << single;
+      EXPECT_GT(std::ranges::count(left[0], uint8_t{0}), 1000);
+      EXPECT_GT(std::ranges::count(left[0], uint8_t{1}), 1000);
+    }
+}
+
+}  // namespace
+}  // namespace limen::incremental_voxels
