@@ -224,6 +224,7 @@ class GlExecutor : public Executor {
       if (needsTessellation(plan)) tessellation = run.technique->tessellation(*run.frame);
       evaluated.tessellation = tessellation.get();
       evaluated.patches = &on.onGpu.scene.surfaces;
+      evaluated.wantsMap = plan.artefacts.pictures || plan.artefacts.exr;
       evaluated.wantsPictures = plan.artefacts.pictures;
       evaluated.wantsLight = plan.artefacts.exr;
       for (store::Measurement& measurement : evaluate(plan, evaluated, shown))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <future>
 #include <set>
 #include <sstream>
 
@@ -114,8 +115,11 @@ int sweepGroup(const SweepGroup& group, const std::vector<SweepDevice>& all, con
 }  // namespace
 
 int sweepOnDevices(const SweepProgram& program, const SweepOptions& options) {
+  // Looking at a GPU takes about as long as planning.
+  std::future<std::vector<SweepDevice>> looking;
+  if (program.devices) looking = std::async(std::launch::async, program.devices);
   const std::vector<SweepGroup> groups = groupedSweeps(program, options);
-  const std::vector<SweepDevice> all = program.devices ? program.devices() : std::vector<SweepDevice>{};
+  const std::vector<SweepDevice> all = looking.valid() ? looking.get() : std::vector<SweepDevice>{};
   const std::vector<int> devices = chooseDevices(all, options.gpus);
   int exitCode = kExitSuccess;
   bool stopped = false;

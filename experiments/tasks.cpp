@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "experiments/base/child_process.h"
+#include "experiments/base/cores.h"
 #include "experiments/base/error.h"
 #include "experiments/gathering.h"
 #include "experiments/shared_sweep.h"
@@ -78,6 +79,7 @@ SweepOptions optionsOfTask(const SweepOptions& options) {
   share.tasks = submission.tasks;
   share.progressFile = progressFile(submission, options.jobTask);
   out.share = std::move(share);
+  if (!alone) shareCores(submission.tasks);
   return out;
 }
 

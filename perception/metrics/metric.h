@@ -64,6 +64,7 @@ struct ComparisonInput {
   const surfaces::TessellatedSurface* tessellation = nullptr;
   /// 1 where a pixel sees a surface that reflects, 0 elsewhere; 1 channel. Null: there are none.
   const Image* mirrors = nullptr;
+  bool wantsMap = true;        ///< MetricResult::map will be used; it may be left out otherwise
   bool wantsPictures = false;  ///< coded ones of MetricResult::pictures will be used
   bool wantsLight = false;     ///< those of linear light will be
 };

@@ -38,11 +38,16 @@ double pixelError(const Comparison& pair, int x, int y) {
 }
 
 std::vector<double> evaluatedErrors(const Comparison& pair) {
+  std::vector<std::vector<double>> rows(static_cast<size_t>(pair.height()));
+  forEachRow(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    std::vector<double>& row = rows[static_cast<size_t>(y)];
+    row.reserve(static_cast<size_t>(pair.width()));
+    for (int x = 0; x < pair.width(); ++x)
+      if (pair.evaluates(x, y)) row.push_back(pixelError(pair, x, y));
+  });
   std::vector<double> errors;
   errors.reserve(static_cast<size_t>(pair.evaluatedPixels()));
-  for (int y = 0; y < pair.height(); ++y)
-    for (int x = 0; x < pair.width(); ++x)
-      if (pair.evaluates(x, y)) errors.push_back(pixelError(pair, x, y));
+  for (const std::vector<double>& row : rows) errors.insert(errors.end(), row.begin(), row.end());
   return errors;
 }
 
@@ -68,8 +73,13 @@ double meanSigned(const Comparison& pair) {
 }
 
 double largest(const Comparison& pair) {
-  const std::vector<double> errors = evaluatedErrors(pair);
-  return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+  std::vector<double> rows(static_cast<size_t>(pair.height()));
+  forEachRow(pair.height(), static_cast<size_t>(pair.width()), [&](int y) {
+    double& most = rows[static_cast<size_t>(y)];
+    for (int x = 0; x < pair.width(); ++x)
+      if (pair.evaluates(x, y)) most = std::max(most, pixelError(pair, x, y));
+  });
+  return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
 }
 
 double percentile99(const Comparison& pair) {
@@ -90,7 +100,7 @@ RegisteredMetric<ComparedRegion> pixelMetric(MetricInfo info, double (*measure)(
             MetricResult result;
             result.value = measure(pair);
             result.evaluatedPixels = pair.evaluatedPixels();
-            if (withMap) {
+            if (withMap && input.wantsMap) {
               result.map = absoluteErrorMap(pair);
               result.mapName = "absolute_error";
             }

@@ -8,14 +8,15 @@
 #include <thread>
 #include <vector>
 
+#include "experiments/base/cores.h"
+
 namespace limen::perception {
 
 void forEachRow(int rows, size_t pixelsPerRow, const std::function<void(int)>& work) {
-  // Starting a thread costs about as much as a few thousand pixels.
-  constexpr size_t kPixelsPerThread = 16384;
+  // Starting a thread costs about as much as ten thousand pixels, and they are started one after the other.
+  constexpr size_t kPixelsPerThread = 65536;
   const size_t worthwhile = 1 + static_cast<size_t>(std::max(rows, 0)) * pixelsPerRow / kPixelsPerThread;
-  const size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const size_t threadCount = std::min(worthwhile, cores);
+  const size_t threadCount = std::min(worthwhile, cores());
   std::atomic<int> next{0};
   std::exception_ptr failure;
   std::mutex failureMutex;

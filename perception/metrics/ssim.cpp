@@ -32,6 +32,10 @@ std::vector<double> windowWeights(int count) {
   return weights;
 }
 
+constexpr int kBlockRows = 64;
+/// That of the sums over a window, as a multiple of a simple difference's.
+constexpr size_t kCostOfPixel = 16;
+
 /// Moments of both images: E[x], E[y], E[x^2], E[y^2], E[xy].
 using Moments = std::array<double, 5>;
 
@@ -49,41 +53,51 @@ MetricResult measure(const ComparisonInput& input, const NoMetricSettings&) {
   const int across = static_cast<int>(acrossWeights.size()), down = static_cast<int>(downWeights.size());
   const int columns = width - across + 1, rows = height - down + 1;  // windows that fit
 
-  std::vector<Moments> filtered(static_cast<size_t>(columns) * height);
-  forEachRow(height, static_cast<size_t>(width), [&](int y) {
+  std::vector<double> similarities(input.wantsMap ? static_cast<size_t>(columns) * rows : 0);
+  std::vector<double> rowSums(static_cast<size_t>(rows));
+  // In blocks of rows, whose moments stay in a core's cache.
+  const int blocks = (rows + kBlockRows - 1) / kBlockRows;
+  forEachRow(blocks, static_cast<size_t>(width) * kBlockRows * kCostOfPixel, [&](int block) {
+    const int first = block * kBlockRows, last = std::min(first + kBlockRows, rows);
+    std::vector<Moments> filtered(static_cast<size_t>(columns) * (last - first + down - 1));
     std::vector<double> test(static_cast<size_t>(width)), reference(test.size());
-    for (int x = 0; x < width; ++x) {
-      test[static_cast<size_t>(x)] = encodeSrgb(relativeLuminance(pair.shownTest(x, y)));
-      reference[static_cast<size_t>(x)] = encodeSrgb(relativeLuminance(pair.shownReference(x, y)));
-    }
-    for (int x = 0; x < columns; ++x) {
-      Moments& sum = filtered[static_cast<size_t>(y) * columns + x] = {};
-      for (int i = 0; i < across; ++i) {
-        const double weight = acrossWeights[static_cast<size_t>(i)];
-        const double t = test[static_cast<size_t>(x + i)], r = reference[static_cast<size_t>(x + i)];
-        const Moments values = {t, r, t * t, r * r, t * r};
-        for (size_t m = 0; m < values.size(); ++m) sum[m] += weight * values[m];
+    for (int y = first; y < last + down - 1; ++y) {
+      for (int x = 0; x < width; ++x) {
+        test[static_cast<size_t>(x)] = encodeSrgb(relativeLuminance(pair.shownTest(x, y)));
+        reference[static_cast<size_t>(x)] = encodeSrgb(relativeLuminance(pair.shownReference(x, y)));
+      }
+      for (int x = 0; x < columns; ++x) {
+        Moments& sum = filtered[static_cast<size_t>(y - first) * columns + x] = {};
+        for (int i = 0; i < across; ++i) {
+          const double weight = acrossWeights[static_cast<size_t>(i)];
+          const double t = test[static_cast<size_t>(x + i)], r = reference[static_cast<size_t>(x + i)];
+          const Moments values = {t, r, t * t, r * r, t * r};
+          for (size_t m = 0; m < values.size(); ++m) sum[m] += weight * values[m];
+        }
       }
     }
-  });
-
-  std::vector<double> similarities(static_cast<size_t>(columns) * rows);
-  const double sum = sumRows(rows, static_cast<size_t>(width), [&](int y) {
-    CompensatedSum row;
-    for (int x = 0; x < columns; ++x) {
-      Moments moments = {};
-      for (int i = 0; i < down; ++i)
-        for (size_t m = 0; m < moments.size(); ++m)
-          moments[m] +=
-              downWeights[static_cast<size_t>(i)] * filtered[static_cast<size_t>(y + i) * columns + x][m];
-      row.add(similarities[static_cast<size_t>(y) * columns + x] = similarity(moments));
+    for (int y = first; y < last; ++y) {
+      CompensatedSum row;
+      for (int x = 0; x < columns; ++x) {
+        Moments moments = {};
+        for (int i = 0; i < down; ++i)
+          for (size_t m = 0; m < moments.size(); ++m)
+            moments[m] += downWeights[static_cast<size_t>(i)] *
+                          filtered[static_cast<size_t>(y - first + i) * columns + x][m];
+        const double value = similarity(moments);
+        row.add(value);
+        if (input.wantsMap) similarities[static_cast<size_t>(y) * columns + x] = value;
+      }
+      rowSums[static_cast<size_t>(y)] = row.value();
     }
-    return row.value();
   });
+  CompensatedSum sum;
+  for (const double row : rowSums) sum.add(row);
 
   MetricResult result;
   result.evaluatedPixels = pair.evaluatedPixels();
-  result.value = sum / (static_cast<double>(columns) * rows);
+  result.value = sum.value() / (static_cast<double>(columns) * rows);
+  if (!input.wantsMap) return result;
   // Each pixel shows the window centred on it, pixels near the border the nearest window.
   Image map(width, height, 1);
   for (int y = 0; y < height; ++y)

@@ -2,8 +2,12 @@
 #include "perception/multiscale/band_peaks.h"
 
 #include <algorithm>
+#include <array>
 #include <complex>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <tuple>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
@@ -113,6 +117,14 @@ double bandTransfer(const Kernel& kernel, Upsampler upsampler, PeakModel model, 
 }
 
 std::vector<BandPeak> bandPeaks(const Kernel& kernel, Upsampler upsampler, PeakModel model, int count) {
+  // Searched for once: a model is made for each comparison, and this takes longer than a small picture.
+  constexpr size_t kKept = 64;
+  using Key = std::tuple<std::array<double, 5>, bool, bool, Upsampler, PeakModel, int>;
+  static std::mutex guard;
+  static std::map<Key, std::vector<BandPeak>> kept;
+  const Key key{kernel.taps, kernel.fused, kernel.nineFetch, upsampler, model, count};
+  const std::scoped_lock lock(guard);
+  if (const auto found = kept.find(key); found != kept.end()) return found->second;
   std::vector<BandPeak> out;
   for (int level = 0; level < count; ++level) {
     if (model == PeakModel::Halving)
@@ -120,6 +132,8 @@ std::vector<BandPeak> bandPeaks(const Kernel& kernel, Upsampler upsampler, PeakM
     else
       out.push_back(findPeak([&](double w) { return bandTransfer(kernel, upsampler, model, level, w); }));
   }
+  if (kept.size() >= kKept) kept.clear();
+  kept[key] = out;
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include <exception>
 #include <thread>
 
+#include "experiments/base/cores.h"
+
 namespace limen::perception {
 
 void forRowBlocks(int rows, size_t costPerRow, const std::function<void(int, int)>& work) {
@@ -12,8 +14,7 @@ void forRowBlocks(int rows, size_t costPerRow, const std::function<void(int, int
   // Starting a thread costs about as much as some ten thousand multiplications.
   constexpr size_t kCostPerThread = 65536;
   const size_t worthwhile = 1 + static_cast<size_t>(rows) * costPerRow / kCostPerThread;
-  const size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const int count = static_cast<int>(std::min({worthwhile, cores, static_cast<size_t>(rows)}));
+  const int count = static_cast<int>(std::min({worthwhile, cores(), static_cast<size_t>(rows)}));
   const auto bound = [&](int i) { return static_cast<int>(int64_t{rows} * i / count); };
   std::vector<std::exception_ptr> failures(static_cast<size_t>(count));
   const auto run = [&](int i) {

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <utility>
 
 #include "experiments/base/error.h"
 #include "experiments/base/text.h"
@@ -35,6 +40,26 @@ std::vector<CastleMechanism> castleMechanisms(const std::string& name) {
   if (name == "castlecsf_rg") return {RedGreen};
   if (name == "castlecsf_yv") return {YellowViolet};
   return {};
+}
+
+/// daly98C0() and daly98C1() over luminance, with the peak at the reference luminance found once. Kept for
+/// the next comparison at the same size: they take longer to make than a small picture to compare.
+std::pair<FineTable, FineTable> dalyTables(double area) {
+  constexpr size_t kKept = 64;
+  static std::mutex guard;
+  static std::map<double, std::pair<FineTable, FineTable>> kept;
+  const std::scoped_lock lock(guard);
+  if (const auto found = kept.find(area); found != kept.end()) return found->second;
+  if (kept.size() >= kKept) kept.clear();
+  constexpr double kReferenceCdM2 = 100.0;
+  const Csf::Peak peak = barten03Peak(kReferenceCdM2, area);
+  const double c0 = daly98C0(kReferenceCdM2, area) / peak.sensitivity;
+  const double c1 = daly98C1(kReferenceCdM2, area) * peak.frequencyCpd;
+  const auto table = [](std::function<double(double)> of) {
+    return FineTable(std::move(of), kLowLuminance, kHighLuminance, 256);
+  };
+  return kept[area] = {table([=](double l) { return c0 * barten03Peak(l, area).sensitivity; }),
+                       table([=](double l) { return c1 / barten03Peak(l, area).frequencyCpd; })};
 }
 
 double finiteOrZero(double value) { return std::isfinite(value) && value > 0.0 ? value : 0.0; }
@@ -102,18 +127,7 @@ Sensitivity::Sensitivity(const PoppingModel& model, const DisplayProfile& displa
     : peakCpd_(model.peakCpd),
       viewing_(viewingPoint(model.areaDeg2, model.widthDeg, display)),
       oneChromatic_(sameModel(settings.sensitivity.redGreen.csf, settings.sensitivity.blueYellow.csf)) {
-  if (tables) {
-    const double area = viewing_.areaDeg2;
-    // daly98C0() and daly98C1() with the peak at the reference luminance found once.
-    constexpr double kReferenceCdM2 = 100.0;
-    const Csf::Peak peak = barten03Peak(kReferenceCdM2, area);
-    const double c0 = daly98C0(kReferenceCdM2, area) / peak.sensitivity;
-    const double c1 = daly98C1(kReferenceCdM2, area) * peak.frequencyCpd;
-    c0_ = FineTable([=](double l) { return c0 * barten03Peak(l, area).sensitivity; }, kLowLuminance,
-                    kHighLuminance, 256);
-    c1_ = FineTable([=](double l) { return c1 / barten03Peak(l, area).frequencyCpd; }, kLowLuminance,
-                    kHighLuminance, 256);
-  }
+  if (tables) std::tie(c0_, c1_) = dalyTables(viewing_.areaDeg2);
   channels_ = {makeChannel(settings.sensitivity.achromatic.csf, model.scaleA, tables),
                makeChannel(settings.sensitivity.redGreen.csf, model.scaleRg, tables),
                makeChannel(settings.sensitivity.blueYellow.csf, model.scaleBy, tables)};

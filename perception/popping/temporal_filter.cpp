@@ -5,7 +5,10 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <tuple>
 
 namespace limen::perception {
 namespace {
@@ -92,6 +95,19 @@ OnsetTable::OnsetTable(CastleMechanism mechanism, double refreshHz, double windo
       values_.push_back(filter.onset(
           kLowestHz * std::pow(highestHz_ / kLowestHz, static_cast<double>(column) / (kColumns - 1))));
   }
+}
+
+std::shared_ptr<const OnsetTable> OnsetTable::shared(CastleMechanism mechanism, double refreshHz,
+                                                     double windowS) {
+  // Few displays and windows are in use at a time; what is still in use when it goes lives on.
+  constexpr size_t kKept = 64;
+  static std::mutex guard;
+  static std::map<std::tuple<CastleMechanism, double, double>, std::shared_ptr<const OnsetTable>> kept;
+  const std::scoped_lock lock(guard);
+  if (kept.size() >= kKept) kept.clear();
+  std::shared_ptr<const OnsetTable>& found = kept[{mechanism, refreshHz, windowS}];
+  if (!found) found = std::make_shared<const OnsetTable>(mechanism, refreshHz, windowS);
+  return found;
 }
 
 double OnsetTable::operator()(double hz, double luminanceCdM2) const {

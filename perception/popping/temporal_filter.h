@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "perception/vision/castle_csf.h"
@@ -53,6 +54,9 @@ class OnsetTable {
   OnsetTable() = default;
   OnsetTable(CastleMechanism mechanism, double refreshHz, double windowS);
   double operator()(double hz, double luminanceCdM2) const;
+  /// The same for all who ask for it: making one takes a tenth of a second.
+  static std::shared_ptr<const OnsetTable> shared(CastleMechanism mechanism, double refreshHz,
+                                                  double windowS);
 
  private:
   CastleMechanism mechanism_ = CastleMechanism::Sustained;

@@ -23,7 +23,7 @@ TemporalSensitivity::TemporalSensitivity(const PoppingModel& model, const Displa
       driftDegS_(settings.leastVelocityDegS()),
       sensitivity_(sensitivity) {
   for (size_t m = 0; m < kTemporalMechanisms; ++m)
-    onsets_[m] = OnsetTable(kAllTemporalMechanisms[m], display.refreshHz, channels.windowS);
+    onsets_[m] = OnsetTable::shared(kAllTemporalMechanisms[m], display.refreshHz, channels.windowS);
   for (int level = 0; level < model.contrastLevels; ++level) {
     std::vector<std::array<double, kTemporalMechanisms>> nodes;
     for (int i = 0; i < kNodes; ++i)
@@ -65,7 +65,7 @@ TemporalGains TemporalSensitivity::apart(int level, double velocityDegS, double 
   for (size_t m = 0; m < kTemporalMechanisms; ++m) {
     const double amplitude = (1.0 - t) * byLevel_[i][node][m] + t * byLevel_[i][node + 1][m];
     out[m].steady = amplitude * castleTemporal(kAllTemporalMechanisms[m], hz, l);
-    out[m].onset = amplitude * onsets_[m](hz, l);
+    out[m].onset = amplitude * (*onsets_[m])(hz, l);
   }
   return out;
 }

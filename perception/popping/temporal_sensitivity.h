@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "perception/popping/sensitivity.h"
@@ -57,7 +58,7 @@ class TemporalSensitivity {
   std::vector<double> peakCpd_;
   double areaDeg2_, refreshHz_, holdShare_, driftDegS_;
   const Sensitivity& sensitivity_;
-  std::array<OnsetTable, kTemporalMechanisms> onsets_;
+  std::array<std::shared_ptr<const OnsetTable>, kTemporalMechanisms> onsets_;
   std::vector<std::vector<std::array<double, kTemporalMechanisms>>> byLevel_;  // over lg luminance
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/base/cancel.h"
+#include "experiments/base/cores.h"
 
 namespace limen::references {
 
@@ -17,7 +18,7 @@ namespace limen::references {
 template <class Work>
 void parallelFor(size_t count, const Work& work) {
   constexpr size_t kPiece = 16;  // small: costs differ widely between lit pixels and penumbrae
-  const size_t threads = std::max<size_t>(std::thread::hardware_concurrency(), 1);
+  const size_t threads = cores();
   const std::stop_token cancelled = cancelToken();
   const auto run = [&](size_t thread) {
     for (size_t first = thread * kPiece; first < count && !cancelled.stop_requested();

@@ -6,13 +6,15 @@
 #include <thread>
 #include <vector>
 
+#include "experiments/base/cores.h"
+
 namespace limen::visibility_fields {
 
 /// Calls work(i) for every i in [0, count) on all cores. `work` must not throw, and treats every number by
 /// itself, so that results do not depend on the number of cores.
 template <class Work>
 void onAllCores(size_t count, const Work& work) {
-  const size_t threads = std::max(std::thread::hardware_concurrency(), 1U);
+  const size_t threads = cores();
   const auto run = [&](size_t thread) {
     for (size_t i = thread; i < count; i += threads) work(i);
   };

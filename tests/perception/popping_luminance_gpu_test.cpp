@@ -10,13 +10,13 @@ namespace {
 /// Grey levels of light about `luminanceCdM2` on a display whose white is 1 cd/m2: gratings of three
 /// frequencies, whose contrast falls along y.
 Image gratings(double luminanceCdM2, double contrast) {
-  Image image(128, 96, 1);
+  Image image(64, 48, 1);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       double wave = 0.0;
       for (const double periodPx : {4.0, 11.0, 29.0})
         wave += std::sin(2.0 * std::numbers::pi * (x + 0.1 * y) / periodPx) / 3.0;
-      image.at(x, y) = static_cast<float>(luminanceCdM2 * (1.0 + contrast * (1.0 - y / 120.0) * wave));
+      image.at(x, y) = static_cast<float>(luminanceCdM2 * (1.0 + contrast * (1.0 - y / 60.0) * wave));
     }
   return image;
 }

@@ -104,7 +104,7 @@ double thresholdOf(const std::vector<Patch>& maskers, PoppingSettings settings, 
   for (size_t p = 0; p < moves.pixels(); ++p) moves.data[2 * p] = perFrame;
   const Image without = patches(maskers);
   double low = 1e-3, high = 0.5;
-  for (int step = 0; step < 12; ++step) {
+  for (int step = 0; step < 10; ++step) {
     const double contrast = std::sqrt(low * high);
     std::vector<Patch> all = maskers;
     all.push_back({kTargetX, contrast});

@@ -47,8 +47,10 @@ MetricResult measure(const ComparisonInput& input, const FlipMetricSettings& set
   result.value =
       flip->compute(test ? *test : *input.testTexture, reference ? *reference : *input.referenceTexture);
   result.evaluatedPixels = pair.evaluatedPixels();
-  result.map = flip->map().read();
-  result.mapName = "flip";
+  if (input.wantsMap) {
+    result.map = flip->map().read();
+    result.mapName = "flip";
+  }
   return result;
 }
 

