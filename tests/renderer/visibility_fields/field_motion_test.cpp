@@ -104,7 +104,7 @@ TEST_F(FieldMotionTest, FieldsFollowAnObjectThatTurnsAndShifts) {
   const scene::Scene scene = turningBox();
   const Given given = {
       {"rays", int64_t{1024}}, {"radius", 10.0}, {"positions", int64_t{4226}}, {"directions", int64_t{64}}};
-  for (const char* near : {"field", "traced"}) {
+  for (const char* near : {"field", "traced", "doubtful"}) {
     Given each = given;
     each["combine.near"] = std::string(near);
     double leftBehind = 0.0;

@@ -14,6 +14,7 @@
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
 #include "renderer/techniques/visibility_fields/lobe_rays.h"
+#include "renderer/techniques/visibility_fields/object_tracer.h"
 
 namespace limen::techniques {
 namespace {
