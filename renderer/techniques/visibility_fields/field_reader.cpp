@@ -7,8 +7,6 @@
 #include <numeric>
 
 #include "experiments/base/error.h"
-#include "renderer/ray_tracing/ray_forest.h"
-#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/object_tracer.h"
@@ -122,11 +120,11 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  rest_.clear(), motions_.assign(objects.size(), nullptr);
-  for (const vf::RigidObject& object : objects) rest_.push_back(vf::VisibilityFields::poseOf(object));
-  for (const scene::PartMotion& motion : frame.scene().motions)
-    for (size_t i = 0; i < objects.size(); ++i)
-      if (objects[i].part == motion.part) motions_[i] = &motion;
+  rest_.clear(), motions_.clear();
+  for (const vf::RigidObject& object : objects) {
+    rest_.push_back(vf::VisibilityFields::poseOf(object));
+    motions_.push_back(vf::motionOf(frame.scene(), object));
+  }
   now_ = rest_;
   move(frame.timeS());
   std::vector<vf::FieldForm> forms(objects.size(), settings_.form);
@@ -146,23 +144,33 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
 
 void FieldReader::keepTriangles(frame::Frame& frame, const ReceiverRays& rays,
                                 const std::vector<vf::RigidObject>& objects) {
-  forest_ = !frame.scene().motions.empty();
-  if (!forest_) {
-    trees_ = std::make_unique<ray_tracing::RayScene>(raysOfObjects(frame, rays));
+  if (frame.scene().motions.empty()) {
+    tree_.emplace(treeOfObjects(frame, rays));
     return;
   }
   std::vector<ray_tracing::TreeTriangles> each;
   for (const vf::RigidObject& object : objects)
     each.push_back({object.vertices, object.triangles, object.numbers});
-  auto forest = std::make_unique<ray_tracing::RayForest>(frame.context(), each);
-  fields_->setRoots(forest->roots());
-  trees_ = std::move(forest);
+  forest_.emplace(frame.context(), each);
+  fields_->setRoots(forest_->roots());
 }
 
 gl::ShaderDefines FieldReader::traceDefines() const {
   gl::ShaderDefines defines;
   if (forest_) defines["RAY_FOREST"] = "1";
   return defines;
+}
+
+void FieldReader::bindTrees(const gl::Program& program) const {
+  if (forest_)
+    forest_->bind(program);
+  else
+    tree_->tree().bind(program);
+}
+
+int64_t FieldReader::bytesHeld() const {
+  return fields_->bytesHeld() + objectOf_->bytes() + (tree_ ? tree_->bytes() : 0) +
+         (forest_ ? forest_->bytes() : 0);
 }
 
 void FieldReader::move(double timeS) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -10,10 +9,11 @@
 #include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
-#include "renderer/ray_tracing/ray_tree.h"
+#include "renderer/ray_tracing/ray_forest.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/techniques/visibility_fields/receiver_rays.h"
+#include "renderer/techniques/visibility_fields/traced_triangles.h"
 #include "renderer/visibility_fields/visibility_fields.h"
 
 namespace limen::techniques {
@@ -110,10 +110,8 @@ class FieldReader {
   /// Of shaders that trace rays, beside defines().
   gl::ShaderDefines traceDefines() const;
   /// Trees of such shaders.
-  void bindTrees(const gl::Program& program) const { trees_->bind(program); }
-  int64_t bytesHeld() const {
-    return fields_->bytesHeld() + objectOf_->bytes() + (trees_ ? trees_->bytes() : 0);
-  }
+  void bindTrees(const gl::Program& program) const;
+  int64_t bytesHeld() const;
   /// Look-ups that run(counts) makes with a program compiled with COUNT and `counts` bound to
   /// kFieldCountsBuffer, and what the fields take.
   template <class Run>
@@ -138,8 +136,8 @@ class FieldReader {
   std::vector<std::string> names_;      ///< of the objects
   std::optional<visibility_fields::VisibilityFields> fields_;
   std::optional<gl::Buffer> objectOf_;
-  std::unique_ptr<ray_tracing::RayTree> trees_;
-  bool forest_ = false;  ///< `trees_` has one for each object
+  std::optional<TracedTriangles> tree_;
+  std::optional<ray_tracing::RayForest> forest_;  ///< in place of `tree_`, where parts move
   std::vector<visibility_fields::Pose> rest_, now_;  ///< of the objects
   std::vector<const scene::PartMotion*> motions_;    ///< of each object; null: it rests
 };

@@ -3,11 +3,9 @@
 
 #include <epoxy/gl.h>
 
-#include <utility>
 #include <vector>
 
 #include "experiments/base/error.h"
-#include "renderer/ray_tracing/triangle_grid.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/rigid_objects.h"
 
@@ -15,23 +13,15 @@ namespace limen::techniques {
 namespace vf = visibility_fields;
 namespace {
 
-struct ObjectTriangles {
-  std::vector<glm::vec3> vertices;
-  std::vector<glm::uvec3> triangles;
-};
-
 /// Numbered as in the scene, without those of no object, or without those of any.
-ObjectTriangles objectTriangles(const frame::Frame& frame, const vf::RigidObjects& objects,
-                                bool ofObjects = true) {
-  const scene::Mesh& mesh = frame.scene().mesh;
-  ObjectTriangles out{{}, mesh.triangles};
-  for (const glm::dvec3 p : mesh.positions) out.vertices.emplace_back(p - frame.gpuScene().anchor());
+std::vector<glm::uvec3> trianglesOf(const frame::Frame& frame, const vf::RigidObjects& objects,
+                                    bool ofObjects = true) {
+  std::vector<glm::uvec3> out = frame.scene().mesh.triangles;
   // Without area: left out of the tree, but counted.
-  for (size_t i = 0; i < out.triangles.size(); ++i)
-    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) out.triangles[i] = glm::uvec3(0);
+  for (size_t i = 0; i < out.size(); ++i)
+    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) out[i] = glm::uvec3(0);
   return out;
 }
-
 
 }  // namespace
 
@@ -46,39 +36,29 @@ const SettingsTable<GridTracer>& GridTracer::table() {
   return kTable;
 }
 
-ray_tracing::RayScene raysOfObjects(frame::Frame& frame, const ReceiverRays& rays) {
-  const ObjectTriangles all = objectTriangles(frame, objectsOf(frame, rays.objects));
-  return {frame.context(), all.vertices, all.triangles};
+TracedTriangles treeOfObjects(frame::Frame& frame, const ReceiverRays& rays) {
+  return {frame, trianglesOf(frame, objectsOf(frame, rays.objects))};
 }
 
-ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
-  const ObjectTriangles others = objectTriangles(frame, objectsOf(frame, rays.objects), false);
-  return {frame.context(), others.vertices, others.triangles};
+TracedTriangles treeWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
+  return {frame, trianglesOf(frame, objectsOf(frame, rays.objects), false)};
 }
 
 void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer) {
   const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  const ObjectTriangles all = objectTriangles(frame, objects);
   const auto* grid = std::get_if<GridTracer>(&tracer);
-  if (!frame.scene().motions.empty()) {
-    if (grid)
-      throw Error("the cells of a grid are filled once, and parts of this scene move", "tracer",
-                  "use tracer: tree");
-    auto rebuilt = std::make_unique<ray_tracing::RebuiltTree>(frame.context(),
-                                                              static_cast<uint32_t>(all.triangles.size()));
-    rebuilt_ = rebuilt.get();
-    rays_ = std::move(rebuilt);
-    indices_.emplace(all.triangles);
-  } else if (grid)
-    rays_ = std::make_unique<ray_tracing::TriangleGrid>(frame.context(), all.vertices, all.triangles,
-                                                        grid->density);
+  if (grid && !frame.scene().motions.empty())
+    throw Error("the cells of a grid are filled once, and parts of this scene move", "tracer",
+                "use tracer: tree");
+  if (grid)
+    grid_.emplace(frame.context(), anchoredVertices(frame), trianglesOf(frame, objects), grid->density);
   else
-    rays_ = std::make_unique<ray_tracing::RayScene>(frame.context(), all.vertices, all.triangles);
+    tree_.emplace(frame, trianglesOf(frame, objects));
   objectOf_.emplace(objects.objectOf);
 }
 
 void ObjectTracer::update(frame::Frame& frame) {
-  if (rebuilt_) rebuilt_->build(frame.passes(), frame.positions(), *indices_);
+  if (tree_) tree_->update(frame);
 }
 
 gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {
@@ -88,7 +68,7 @@ gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {
 }
 
 void ObjectTracer::bind(const gl::Program& program) const {
-  rays_->bind(program);
+  (tree_ ? tree_->tree() : *grid_).bind(program);
   objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
 }
 

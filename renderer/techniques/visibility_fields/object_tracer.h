@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <variant>
 
@@ -10,10 +9,9 @@
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
-#include "renderer/ray_tracing/ray_scene.h"
-#include "renderer/ray_tracing/ray_tree.h"
-#include "renderer/ray_tracing/rebuilt_tree.h"
+#include "renderer/ray_tracing/triangle_grid.h"
 #include "renderer/techniques/visibility_fields/receiver_rays.h"
+#include "renderer/techniques/visibility_fields/traced_triangles.h"
 
 namespace limen::techniques {
 
@@ -44,23 +42,22 @@ class ObjectTracer {
   void update(frame::Frame& frame);
   void bind(const gl::Program& program) const;
   int64_t bytesHeld() const {
-    return rays_->bytes() + objectOf_->bytes() + (indices_ ? indices_->bytes() : 0);
+    return (tree_ ? tree_->bytes() : grid_->bytes()) + objectOf_->bytes();
   }
   /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
   /// software renderer, which limits the steps of an invocation.
   static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);
 
  private:
-  std::unique_ptr<ray_tracing::RayTree> rays_;
-  const ray_tracing::RebuiltTree* rebuilt_ = nullptr;  ///< `rays_`, if parts move
-  std::optional<gl::Buffer> indices_;                  ///< of the objects' triangles, for it
+  std::optional<TracedTriangles> tree_;
+  std::optional<ray_tracing::TriangleGrid> grid_;  ///< in place of `tree_`
   std::optional<gl::Buffer> objectOf_;
 };
 
-/// The triangles of all objects where they rest, numbered as in the scene.
-ray_tracing::RayScene raysOfObjects(frame::Frame& frame, const ReceiverRays& rays);
+/// Over the triangles of all objects.
+TracedTriangles treeOfObjects(frame::Frame& frame, const ReceiverRays& rays);
 
-/// The triangles that belong to no object, numbered as in the scene.
-ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays);
+/// Over the triangles that belong to no object.
+TracedTriangles treeWithoutObjects(frame::Frame& frame, const ReceiverRays& rays);
 
 }  // namespace limen::techniques
