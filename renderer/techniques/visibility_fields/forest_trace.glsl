@@ -2,7 +2,7 @@
 // As object_trace.glsl, of objects that move: each has a tree in its own axes and radii, so that where it stands does not matter. Rays are traced
 // against the objects whose spheres they pass. Set up by FieldReader::bind() and bindTrees().
 #include "renderer/ray_tracing/trace.glsl"
-#include "renderer/techniques/visibility_fields/object_lookup.glsl"
+#include "renderer/visibility_fields/field_objects.glsl"
 
 bool rayHitCounts(Ray ray, RayHit hit, vec3 a, vec3 b, vec3 c) { return true; }
 

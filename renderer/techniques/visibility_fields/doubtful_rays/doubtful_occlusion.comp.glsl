@@ -4,8 +4,6 @@
 #include "renderer/techniques/visibility_fields/doubtful_rays/doubtful_trace.glsl"
 #include "renderer/techniques/visibility_fields/traced_visibility.glsl"
 
-float seenAt(float distance) { return visibilityAt(distance); }
-
 void main() {
   ivec2 pixel;
   int ray;

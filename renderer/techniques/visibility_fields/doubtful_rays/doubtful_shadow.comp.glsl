@@ -3,8 +3,6 @@
 #include "renderer/techniques/visibility_fields/shadow_rays.glsl"
 #include "renderer/techniques/visibility_fields/doubtful_rays/doubtful_trace.glsl"
 
-float seenAt(float distance) { return 1.0; }  // no field is read
-
 void main() {
   ivec2 pixel;
   int ray;

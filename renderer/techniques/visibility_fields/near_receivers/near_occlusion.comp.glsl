@@ -6,8 +6,6 @@
 
 layout(binding = kFieldOutImage, rgba32f) uniform writeonly image2D outImage;
 
-float seenAt(float distance) { return visibilityAt(distance); }
-
 void main() {
   makeRayTable();
   ivec2 pixel;

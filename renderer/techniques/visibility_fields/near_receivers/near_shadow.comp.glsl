@@ -5,8 +5,6 @@
 
 layout(binding = kFieldOutImage, r32f) uniform writeonly image2D outImage;
 
-float seenAt(float distance) { return 1.0; }  // no field is read
-
 void main() {
   ivec2 pixel;
   FieldReceiver receiver;
