@@ -82,6 +82,15 @@ vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   return seen;
 }
 
+#ifdef FIELD_DOUBT
+// As fieldSeenBy(), without a note: a ray that is near to a surface is so by its own texel.
+vec2 fieldSeenCorner(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+  const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
+  const float distance = ask.from + 2.0 * ask.along * share;
+  return share >= 0.0 && distance > ask.least ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
+}
+#endif
+
 vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   vec3 local = fieldLocal(fieldMaps[map].xyz, ask.aim);
 #if FIELD_FETCH == 3
@@ -92,18 +101,24 @@ vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
              mix(fieldSeenTexel(view, ask, map, at + ivec2(0, 1)), fieldSeenTexel(view, ask, map, at + ivec2(1, 1)), f.x), f.y);
 #else
 #ifdef FIELD_DOUBT
+  const vec2 middle = float(FIELD_SIDE) * fieldSeenPlace(local);
+  const ivec2 low = ivec2(floor(middle - doubtReach)), high = ivec2(floor(middle + doubtReach)), own = ivec2(middle);
+  const vec2 seen = fieldSeenTexel(view, ask, map, own);
+  // Half a texel away one of the corners is the texel itself.
   if (doubtReach > 0.0) {
-    const vec2 middle = float(FIELD_SIDE) * fieldSeenPlace(local);
-    fieldSeenTexel(view, ask, map, ivec2(floor(middle - doubtReach)));
-    fieldSeenTexel(view, ask, map, ivec2(floor(middle + vec2(doubtReach, -doubtReach))));
-    fieldSeenTexel(view, ask, map, ivec2(floor(middle + vec2(-doubtReach, doubtReach))));
-    fieldSeenTexel(view, ask, map, ivec2(floor(middle + doubtReach)));
+    if (low != own) fieldSpread(fieldSeenCorner(view, ask, map, low));
+    if (high != own) fieldSpread(fieldSeenCorner(view, ask, map, high));
+    const ivec2 left = ivec2(low.x, high.y), right = ivec2(high.x, low.y);
+    if (left != own) fieldSpread(fieldSeenCorner(view, ask, map, left));
+    if (right != own) fieldSpread(fieldSeenCorner(view, ask, map, right));
   }
-#endif
+  return seen;
+#else
 #if FIELD_DIRECTION_FORM == 2
   return fieldSeenTexel(view, ask, map, ivec2(float(FIELD_SIDE) * fieldSeenPlace(local)));
 #else
   return fieldSeenTexel(view, ask, map, fieldTexel(local, FIELD_SIDE, FIELD_DIRECTION_FORM));
+#endif
 #endif
 #endif
 }

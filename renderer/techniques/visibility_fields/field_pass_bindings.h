@@ -45,7 +45,7 @@ struct NearListHeader {           // std430
 };
 
 // Rays about which fields are in doubt, which are traced one by one (DoubtfulRays).
-const uint kDoubtListBuffer = 1u;  // DoubtListHeader, then uvec2: x + 65536 y of a pixel; number of its ray
+const uint kDoubtListBuffer = 1u;  // DoubtListHeader, then words: number of a ray among those of all pixels
 const uint kDoubtSumsBuffer = 0u;  // two words a pixel, in kDoubtUnit: what its doubtful rays see, traced; looked up
 const int kDoubtGroup = 64;
 const float kDoubtUnit = 1048576.0;         // of a ray that sees all; sums of 1024 rays stay below kDoubtCutShort

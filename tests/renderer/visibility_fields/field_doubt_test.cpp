@@ -26,7 +26,7 @@ class FieldDoubtTest : public TechniqueTest {
     return {{"combine.near", std::string("doubtful")},
             {"combine.near.reach", reach},
             {"combine.near.footprints", footprints},
-            {"combine.near.capacity", 256.0}};
+            {"combine.near.capacity", 1.0}};
   }
 };
 
@@ -78,10 +78,10 @@ TEST_F(FieldDoubtTest, AListThatIsTooShortLeavesAllToTheFieldAndSaysSo) {
   const Image looked =
       render(scene, kDoubtField, with(coarse, {{"combine.near", std::string("field")}}), kDoubtPx).product;
   Given given = with(coarse, doubtful(1.0));
-  given["combine.near.capacity"] = 0.5;
+  given["combine.near.capacity"] = 0.002;
   const Rendered found = render(scene, kDoubtField, given, kDoubtPx, true);
   EXPECT_EQ(found.counter("doubtful_overflow"), 1.0);
-  EXPECT_GT(found.counter("doubtful_ray_share") * 256.0, 0.5);
+  EXPECT_GT(found.counter("doubtful_ray_share"), 0.002);
   // Units of 2^-20 of a ray.
   EXPECT_LT(meanDifference(found.product, looked), 1e-5);
 }
@@ -136,7 +136,7 @@ TEST_F(FieldDoubtTest, SilhouettesOfShadowsAreTraced) {
                  {"directions", int64_t{64}},
                  {"objects", std::string("parts")}};
   const double alone = differs(render(scene, field, given, kDoubtPx).product, exact);
-  given.insert({{"near", std::string("doubtful")}, {"near.reach", 2.0}, {"near.capacity", 64.0}});
+  given.insert({{"near", std::string("doubtful")}, {"near.reach", 2.0}, {"near.capacity", 1.0}});
   const Rendered found = render(scene, field, given, kDoubtPx, true);
   EXPECT_EQ(found.counter("doubtful_overflow"), 0.0);
   EXPECT_LT(differs(found.product, exact), 0.1 * alone);

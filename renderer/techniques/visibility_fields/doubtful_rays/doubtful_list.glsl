@@ -6,7 +6,7 @@
 
 layout(std430, binding = kDoubtListBuffer) buffer DoubtList {
   DoubtListHeader doubtList;
-  uvec2 doubtEntries[];
+  uint doubtEntries[];
 };
 layout(std430, binding = kDoubtSumsBuffer) writeonly buffer DoubtSums { uint doubtSums[]; };
 uniform float doubtDifference;
@@ -17,9 +17,11 @@ shared uint doubtRays[kDoubtGathered];
 shared uint doubtCount, doubtBase;
 float doubtLookedUp = 0.0;
 
+// `entry`: number of the invocation in its work group + 64 times that of its ray.
 void listRay(uint place, uint entry) {
   const ivec2 pixel = ivec2(gl_WorkGroupID.xy) * kGroupSide + ivec2(entry % uint(kGroupSide), entry / uint(kGroupSide) % uint(kGroupSide));
-  if (place < doubtCapacity) doubtEntries[place] = uvec2(uint(pixel.x) | uint(pixel.y) << 16, entry / uint(kGroupSide * kGroupSide));
+  const uint ray = entry / uint(kGroupSide * kGroupSide);
+  if (place < doubtCapacity) doubtEntries[place] = uint(pixel.y * sizePx.x + pixel.x) * uint(raySide * raySide) + ray;
 }
 #endif
 

@@ -52,8 +52,8 @@ void DoubtfulRays::prepare(frame::Frame& frame, const std::string& shader, const
                 "rays", "use fewer 'rays', or a smaller image");
   raysPerPx_ = raysPerPx;
   capacity_ = static_cast<uint32_t>(
-      std::min(std::ceil(setting_->capacity * static_cast<double>(pixels)), static_cast<double>(rays)));
-  list_.emplace(static_cast<int64_t>(sizeof(DoubtListHeader)) + int64_t{8} * capacity_, nullptr);
+      std::min(std::ceil(setting_->capacity * static_cast<double>(rays)), static_cast<double>(rays)));
+  list_.emplace(static_cast<int64_t>(sizeof(DoubtListHeader)) + int64_t{4} * capacity_, nullptr);
   list_->clearUint(0);
   sums_.emplace(int64_t{8} * pixels, nullptr);
   sums_->clearUint(0);

@@ -4,7 +4,7 @@
 
 layout(std430, binding = kDoubtListBuffer) readonly buffer DoubtList {
   DoubtListHeader doubtList;
-  uvec2 doubtEntries[];
+  uint doubtEntries[];
 };
 layout(std430, binding = kDoubtSumsBuffer) buffer DoubtSums { uint doubtSums[]; };
 
@@ -12,9 +12,9 @@ layout(std430, binding = kDoubtSumsBuffer) buffer DoubtSums { uint doubtSums[]; 
 bool doubtfulRay(out ivec2 pixel, out int ray) {
   const uint place = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(kDoubtGroup) + gl_LocalInvocationIndex;
   if (place >= doubtList.listed) return false;
-  const uvec2 entry = doubtEntries[place];
-  pixel = ivec2(entry.x & 0xffffu, entry.x >> 16);
-  ray = int(entry.y);
+  const uint entry = doubtEntries[place], rays = uint(raySide * raySide), number = entry / rays;
+  pixel = ivec2(number % uint(sizePx.x), number / uint(sizePx.x));
+  ray = int(entry % rays);
   return true;
 }
 

@@ -24,7 +24,7 @@ const SettingsTable<DoubtfulTraced>& DoubtfulTraced::table() {
   static const SettingsTable<S> kTable = {
       {&S::reach,
        "reach",
-       {0.0, 8.0},
+       {0.0, 4.0},
        "texels",
        "Half the side of the square about a ray's direction in its map whose corners are looked up as well; "
        "0: none"},
@@ -41,10 +41,10 @@ const SettingsTable<DoubtfulTraced>& DoubtfulTraced::table() {
        "between rays of the field"},
       {&S::capacity,
        "capacity",
-       {0.01, 1024.0},
-       "rays/px",
-       "Doubtful rays of the whole picture that the list takes, per pixel; if there are more, all are looked "
-       "up and none is traced (doubtful_overflow)"}};
+       {0.0001, 1.0},
+       "",
+       "Doubtful rays of the whole picture that the list takes, as a share of all its rays; if there are "
+       "more, all are looked up and none is traced (doubtful_overflow)"}};
   return kTable;
 }
 

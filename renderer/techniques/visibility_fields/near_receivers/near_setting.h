@@ -32,7 +32,7 @@ struct DoubtfulTraced {
   double reach = 0.5;
   double difference = 0.1;
   double footprints = 0.5;
-  double capacity = 8.0;
+  double capacity = 0.25;
   static const SettingsTable<DoubtfulTraced>& table();
 };
 using NearSetting = std::variant<NearByField, NearTraced, DoubtfulTraced>;
