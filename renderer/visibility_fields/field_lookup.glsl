@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays against objects by their fields. Source: Gaitatzes 2012, section 4.4.2. Set up as field_texel.glsl.
+#include "renderer/visibility_fields/field_objects.glsl"
 #include "renderer/visibility_fields/field_texel.glsl"
-
-layout(std430, binding = kFieldObjectsBuffer) readonly buffer FieldObjects { FieldObject fieldObjects[]; };
-uniform uint fieldObjectCount;
 
 const float kFieldNothing = -1.0;
 uint fieldLookUps = 0u;  // spheres that rays of this invocation met
@@ -105,10 +103,6 @@ FieldEntry fieldAimedEntry(uint firstMap, vec3 point, vec3 aim) {
   entry.map = int(firstMap) + fieldNearestPosition(firstMap, point);
   entry.texel = fieldTexel(fieldLocal(fieldMaps[entry.map].xyz, aim), FIELD_SIDE, FIELD_DIRECTION_FORM);
   return entry;
-}
-
-vec3 fieldToObject(FieldObject object, vec3 v) {
-  return vec3(dot(object.axisX.xyz, v), dot(object.axisY.xyz, v), dot(object.axisZ.xyz, v));
 }
 
 // Where a ray passes an object's sphere: distances of entry and exit, and the point halfway, relative to the centre. Nearest to

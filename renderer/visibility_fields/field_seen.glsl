@@ -8,6 +8,24 @@
 // Share of the ray that a surface at this distance lets through.
 float seenAt(float distance);
 
+// FIELD_DOUBT: besides what a ray sees, the least and most that it may see by the rays of the field around: those that the look-up reads, and
+// those at the corners of a square about the direction, doubtReach texels away from its middle. All is possible where a surface is near
+// (fieldNear, of this ray and object alone), or where something blocks but it is not known where.
+#ifdef FIELD_DOUBT
+uniform float doubtReach;
+vec2 fieldRange = vec2(1.0);
+bool fieldBlocked, fieldFree;
+void fieldBeginRange() {
+  fieldRange = vec2(1.0, 0.0);
+  fieldBlocked = false, fieldFree = false, fieldNear = false;
+}
+void fieldSpread(vec2 seen) {
+  fieldRange = vec2(min(fieldRange.x, seen.x), max(fieldRange.y, seen.x));
+  if (seen.y > 0.0) fieldFree = true;
+  else fieldBlocked = true;
+}
+#endif
+
 // Of an object, in its own axes and radii.
 struct FieldView {
   vec3 origin;  // of the rays
@@ -46,8 +64,8 @@ struct FieldAsk {
   float least;        // of it, to count
 };
 
-// x: share that is let through; y: 1 if nothing is met that counts, 0 otherwise. Of neighbours: weighed means.
-vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+// By one ray of the field. x: share that is let through; y: 1 if nothing is met that counts, 0 otherwise. Of neighbours: weighed means.
+vec2 fieldSeenBy(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
   const float distance = ask.from + 2.0 * ask.along * share;
   if (share < 0.0) return vec2(1.0);
@@ -55,6 +73,23 @@ vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   fieldNote(distance, 2.0 * share, abs(1.0 - 2.0 * share / ask.reach), blocks || view.slack == 0.0);
   return blocks ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
 }
+
+vec2 fieldSeenTexel(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+  const vec2 seen = fieldSeenBy(view, ask, map, texel);
+#ifdef FIELD_DOUBT
+  fieldSpread(seen);
+#endif
+  return seen;
+}
+
+#ifdef FIELD_DOUBT
+// As fieldSeenBy(), without a note: a ray that is near to a surface is so by its own texel.
+vec2 fieldSeenCorner(FieldView view, FieldAsk ask, int map, ivec2 texel) {
+  const float share = fieldShare(map, clamp(texel, ivec2(0), ivec2(FIELD_SIDE - 1)));
+  const float distance = ask.from + 2.0 * ask.along * share;
+  return share >= 0.0 && distance > ask.least ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
+}
+#endif
 
 vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   vec3 local = fieldLocal(fieldMaps[map].xyz, ask.aim);
@@ -65,10 +100,25 @@ vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   return mix(mix(fieldSeenTexel(view, ask, map, at), fieldSeenTexel(view, ask, map, at + ivec2(1, 0)), f.x),
              mix(fieldSeenTexel(view, ask, map, at + ivec2(0, 1)), fieldSeenTexel(view, ask, map, at + ivec2(1, 1)), f.x), f.y);
 #else
+#ifdef FIELD_DOUBT
+  const vec2 middle = float(FIELD_SIDE) * fieldSeenPlace(local);
+  const ivec2 low = ivec2(floor(middle - doubtReach)), high = ivec2(floor(middle + doubtReach)), own = ivec2(middle);
+  const vec2 seen = fieldSeenTexel(view, ask, map, own);
+  // Half a texel away one of the corners is the texel itself.
+  if (doubtReach > 0.0) {
+    if (low != own) fieldSpread(fieldSeenCorner(view, ask, map, low));
+    if (high != own) fieldSpread(fieldSeenCorner(view, ask, map, high));
+    const ivec2 left = ivec2(low.x, high.y), right = ivec2(high.x, low.y);
+    if (left != own) fieldSpread(fieldSeenCorner(view, ask, map, left));
+    if (right != own) fieldSpread(fieldSeenCorner(view, ask, map, right));
+  }
+  return seen;
+#else
 #if FIELD_DIRECTION_FORM == 2
   return fieldSeenTexel(view, ask, map, ivec2(float(FIELD_SIDE) * fieldSeenPlace(local)));
 #else
   return fieldSeenTexel(view, ask, map, fieldTexel(local, FIELD_SIDE, FIELD_DIRECTION_FORM));
+#endif
 #endif
 #endif
 }
@@ -108,14 +158,8 @@ vec2 fieldSeenAround(FieldView view, FieldAsk ask, vec3 point) {
 #endif
 }
 
-// Share of a ray that the object lets through. `direction`: unit, in the object's axes.
-float fieldSeen(FieldView view, vec3 direction) {
-  const float along = -dot(view.origin, direction);
-  const vec3 middle = view.origin + along * direction;
-  const float squared = 1.0 - dot(middle, middle);
-  if (!(squared > 0.0)) return 1.0;
-  const float halfLength = sqrt(squared), leave = along + halfLength, entry = along - halfLength;
-  if (!(leave > 0.0)) return 1.0;
+// Share of a ray that the object lets through, which meets its sphere. `direction`: unit, in the object's axes.
+float fieldSeenWithin(FieldView view, vec3 direction, vec3 middle, float halfLength, float entry, float leave) {
   ++fieldLookUps;
   const bool inside = entry < 0.0;
   FieldAsk ask;
@@ -125,12 +169,44 @@ float fieldSeen(FieldView view, vec3 direction) {
   ask.along = inside ? -1.0 : 1.0;
   ask.least = inside ? view.slack : -1.0;
   const vec2 back = fieldSeenAround(view, ask, middle + (inside ? halfLength : -halfLength) * direction);
+#ifdef FIELD_DOUBT
+  // From inside the distance of what blocks is the farthest that it can be.
+  const vec2 backRange = fieldRange;
+  const bool mixed = inside && fieldBlocked && fieldFree, unknown = inside && fieldBlocked && backRange.y > 0.0;
+  if (mixed) fieldRange = vec2(0.0, 1.0);
+#endif
   if (!(inside && back.x > back.y)) return back.x;
   // What blocks lets through by its distance, which is the farthest that it can be. On the way from where the ray's line enters the
   // sphere the nearest is met first, if nothing lies behind the origin. Of the neighbours only those that are blocked are in question.
   ++fieldLookUps;
   ask.reach = -entry, ask.from = entry, ask.along = 1.0;
+#ifdef FIELD_DOUBT
+  fieldRange = vec2(1.0, 0.0), fieldFree = false;
+#endif
   const vec2 ahead = fieldSeenAround(view, ask, middle - halfLength * direction);
   if (ahead.y > 0.999999) fieldNoteUnknown();  // rounded
+#ifdef FIELD_DOUBT
+  fieldRange = mixed || unknown && fieldFree ? vec2(0.0, mixed ? 1.0 : backRange.y) : min(backRange, fieldRange);
+#endif
   return back.y + min(back.x - back.y, (1.0 - back.y) * ahead.x);
+}
+
+float fieldSeen(FieldView view, vec3 direction) {
+#ifdef FIELD_DOUBT
+  fieldRange = vec2(1.0);
+#endif
+  const float along = -dot(view.origin, direction);
+  const vec3 middle = view.origin + along * direction;
+  const float squared = 1.0 - dot(middle, middle);
+  if (!(squared > 0.0)) return 1.0;
+  const float halfLength = sqrt(squared), leave = along + halfLength, entry = along - halfLength;
+  if (!(leave > 0.0)) return 1.0;
+#ifdef FIELD_DOUBT
+  fieldBeginRange();
+#endif
+  const float seen = fieldSeenWithin(view, direction, middle, halfLength, entry, leave);
+#ifdef FIELD_DOUBT
+  if (fieldNear) fieldRange = vec2(0.0, 1.0);
+#endif
+  return seen;
 }

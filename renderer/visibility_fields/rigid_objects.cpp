@@ -58,6 +58,12 @@ const SettingsTable<PieceObjects>& PieceObjects::table() {
   return kTable;
 }
 
+const scene::PartMotion* motionOf(const scene::Scene& scene, const RigidObject& object) {
+  for (const scene::PartMotion& motion : scene.motions)
+    if (motion.part == object.part) return &motion;
+  return nullptr;
+}
+
 RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& positions,
                             const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals) {
   RigidObject object;

@@ -59,6 +59,9 @@ struct RigidObjects {
 /// neither do objects without extent.
 RigidObjects rigidObjectsOf(const scene::Scene& scene, const ObjectSetting& setting);
 
+/// How the object moves; null: it rests.
+const scene::PartMotion* motionOf(const scene::Scene& scene, const RigidObject& object);
+
 /// `triangles` as an object of its own, numbered in their order.
 RigidObject makeRigidObject(std::string name, const std::vector<glm::dvec3>& positions,
                             const std::vector<glm::uvec3>& triangles,

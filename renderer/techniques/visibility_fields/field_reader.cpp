@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "experiments/base/error.h"
-#include "renderer/frame/g_buffer.h"
 #include "renderer/techniques/visibility_fields/detail_by_size.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
+#include "renderer/techniques/visibility_fields/object_tracer.h"
 #include "renderer/visibility_fields/field_bindings.h"
 #include "renderer/visibility_fields/sphere_cover.h"
 
@@ -23,145 +23,15 @@ static_assert(static_cast<int>(FieldFetch::Nearest) == kFetchNearest &&
               static_cast<int>(FieldFetch::Positions) == kFetchPositions &&
               static_cast<int>(FieldFetch::All) == kFetchAll);
 
-void checkCount(const std::vector<vf::RigidObject>& objects, const char* mend) {
-  if (objects.size() > vf::kMostFieldObjects)
-    throw Error("the scene has " + std::to_string(objects.size()) +
-                    " objects or pieces of objects; at most " + std::to_string(vf::kMostFieldObjects) +
-                    " can have visibility fields",
-                "objects", mend);
-}
-
 std::vector<vf::RigidObject> covered(const std::vector<vf::RigidObject>& objects, int spheres) {
   std::vector<vf::RigidObject> out;
   for (const vf::RigidObject& object : objects)
     for (vf::RigidObject& piece : vf::coverWithSpheres(object, spheres)) out.push_back(std::move(piece));
-  checkCount(out, "use fewer 'spheres', or a smaller scene");
+  checkObjectCount(out, "use fewer 'spheres', or a smaller scene");
   return out;
-}
-
-struct ObjectTriangles {
-  std::vector<glm::vec3> vertices;
-  std::vector<glm::uvec3> triangles;
-};
-
-/// Numbered as in the scene, without those of no object, or without those of any.
-ObjectTriangles objectTriangles(const frame::Frame& frame, const vf::RigidObjects& objects,
-                                bool ofObjects = true) {
-  const scene::Mesh& mesh = frame.scene().mesh;
-  ObjectTriangles out{{}, mesh.triangles};
-  for (const glm::dvec3 p : mesh.positions) out.vertices.emplace_back(p - frame.gpuScene().anchor());
-  // Without area: left out of the tree, but counted.
-  for (size_t i = 0; i < out.triangles.size(); ++i)
-    if ((objects.objectOf[i] == vf::kFieldNoObject) == ofObjects) out.triangles[i] = glm::uvec3(0);
-  return out;
-}
-
-const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel channel) {
-  return frame.get<frame::GBufferChannel>(frame::ChannelSetting{channel});
 }
 
 }  // namespace
-
-vf::RigidObjects objectsOf(const frame::Frame& frame, const vf::ObjectSetting& setting) {
-  vf::RigidObjects objects = vf::rigidObjectsOf(frame.scene(), setting);
-  checkCount(objects.objects, "use 'auto' or 'parts', or a smaller scene");
-  return objects;
-}
-
-const SettingsTable<ReceiverRays>& ReceiverRays::table() {
-  using S = ReceiverRays;
-  static const SettingsTable<S> kTable = {
-      {&S::rays, "rays", {1, 1024}, "rays", "Rays per pixel, a square number", "Gaitatzes 2012, section 4.7"},
-      {&S::pattern, "pattern", "Where the rays of a pixel lie in their cells", "bench"},
-      {&S::selfOcclusion, "self_occlusion", "Objects block their own rays, and not only those of others",
-       "Gaitatzes 2012, section 4.4.2"},
-      objectsBinding(&S::objects)};
-  return kTable;
-}
-
-int ReceiverRays::side() const { return static_cast<int>(std::lround(std::sqrt(double(rays)))); }
-
-void ReceiverRays::check() const {
-  if (int64_t{side()} * side() != rays)
-    throw Error("'rays' is " + std::to_string(rays) + ", not a square number", "rays",
-                "give " + std::to_string(side() * side()));
-}
-
-int ReceiverRays::interleave() const {
-  const auto* interleaved = std::get_if<InterleavedPattern>(&pattern);
-  return interleaved ? interleaved->side : 1;
-}
-
-void ReceiverRays::makeInputs(frame::Frame& frame) {
-  channelOf(frame, frame::Channel::Position);
-  channelOf(frame, frame::Channel::Normal);
-  frame.get<frame::TriangleIds>();
-}
-
-void ReceiverRays::configure(const gl::Program& program, frame::Frame& frame) const {
-  channelOf(frame, frame::Channel::Position).texture().bindTexture(kFieldPositionUnit);
-  channelOf(frame, frame::Channel::Normal).texture().bindTexture(kFieldNormalUnit);
-  frame.get<frame::TriangleIds>().texture().bindTexture(kFieldIdsUnit);
-  program.set("sizePx", frame.sizePx());
-  program.set("raySide", side());
-  const auto* turned = std::get_if<TurnedPattern>(&pattern);
-  program.set("turned", turned ? 1 : 0);
-  program.set("seed", turned ? static_cast<uint32_t>(turned->seed) : 0U);
-  program.set("interleave", interleave());
-  program.set("selfOcclusion", selfOcclusion ? 1 : 0);
-  program.set("eyePosition", glm::vec3(frame.camera().eye - frame.gpuScene().anchor()));
-}
-
-const SettingsTable<SamePattern>& SamePattern::table() {
-  static const SettingsTable<SamePattern> kTable = {};
-  return kTable;
-}
-
-const SettingsTable<TurnedPattern>& TurnedPattern::table() {
-  static const SettingsTable<TurnedPattern> kTable = {
-      {&TurnedPattern::seed, "seed", {0, 1000000}, "", "Seed of the choice"}};
-  return kTable;
-}
-
-const SettingsTable<InterleavedPattern>& InterleavedPattern::table() {
-  using S = InterleavedPattern;
-  static const SettingsTable<S> kTable = {
-      {&S::side,
-       "side",
-       {2, 8},
-       "px",
-       "Side of the tiles of pixels that share a grid of rays that is finer by as much",
-       "Keller and Heidrich 2001 (bench)"},
-      {&S::filter, "filter", "What is made of interleaved pixels", "bench"}};
-  return kTable;
-}
-
-const SettingsTable<NoFilter>& NoFilter::table() {
-  static const SettingsTable<NoFilter> kTable = {};
-  return kTable;
-}
-
-const SettingsTable<BilateralFilter>& BilateralFilter::table() {
-  static const SettingsTable<BilateralFilter> kTable = {
-      {&BilateralFilter::angleDeg,
-       "angle_deg",
-       {0.1, 90.0},
-       "deg",
-       "Angle between normals, or between a surface and the way to another pixel's point, at which that "
-       "counts no more"}};
-  return kTable;
-}
-
-const SettingsTable<TreeTracer>& TreeTracer::table() {
-  static const SettingsTable<TreeTracer> kTable = {};
-  return kTable;
-}
-
-const SettingsTable<GridTracer>& GridTracer::table() {
-  static const SettingsTable<GridTracer> kTable = {
-      {&GridTracer::density, "density", {0.01, 64.0}, "", "Cells per triangle", "Cleary and Wyvill 1988"}};
-  return kTable;
-}
 
 const SettingsTable<FieldUse>& FieldUse::table() {
   using S = FieldUse;
@@ -240,7 +110,7 @@ void FieldReading::check() const {
                 "fetch", "give fetch: nearest or aimed, or leave out 'position_map' and 'direction_map'");
 }
 
-void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth, bool trees) {
+void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool smooth, bool traces) {
   const vf::RigidObjects whole = objectsOf(frame, rays.objects);
   std::vector<vf::RigidObject> objects = covered(whole.objects, settings_.use.spheres);
   if (!smooth)
@@ -250,11 +120,11 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
     throw Error(std::to_string(rays.rays) + " rays against " + std::to_string(objects.size()) +
                     " objects take more steps than a software renderer allows",
                 "rays", "use fewer rays, or a GPU");
-  rest_.clear(), motions_.assign(objects.size(), nullptr);
-  for (const vf::RigidObject& object : objects) rest_.push_back(vf::VisibilityFields::poseOf(object));
-  for (const scene::PartMotion& motion : frame.scene().motions)
-    for (size_t i = 0; i < objects.size(); ++i)
-      if (objects[i].part == motion.part) motions_[i] = &motion;
+  rest_.clear(), motions_.clear();
+  for (const vf::RigidObject& object : objects) {
+    rest_.push_back(vf::VisibilityFields::poseOf(object));
+    motions_.push_back(vf::motionOf(frame.scene(), object));
+  }
   now_ = rest_;
   move(frame.timeS());
   std::vector<vf::FieldForm> forms(objects.size(), settings_.form);
@@ -268,14 +138,39 @@ void FieldReader::prepare(frame::Frame& frame, const ReceiverRays& rays, bool sm
   names_.clear();
   for (const vf::RigidObject& object : objects) names_.push_back(object.name);
   objectOf_.emplace(whole.objectOf);
-  if (trees) {
-    std::vector<ray_tracing::TreeTriangles> each;
-    for (const vf::RigidObject& object : objects)
-      each.push_back({object.vertices, object.triangles, object.numbers});
-    trees_.emplace(frame.context(), each);
-    fields_->setRoots(trees_->roots());
-  }
+  if (traces) keepTriangles(frame, rays, objects);
   fields_->place(now_, frame.gpuScene().anchor());
+}
+
+void FieldReader::keepTriangles(frame::Frame& frame, const ReceiverRays& rays,
+                                const std::vector<vf::RigidObject>& objects) {
+  if (frame.scene().motions.empty()) {
+    tree_.emplace(treeOfObjects(frame, rays));
+    return;
+  }
+  std::vector<ray_tracing::TreeTriangles> each;
+  for (const vf::RigidObject& object : objects)
+    each.push_back({object.vertices, object.triangles, object.numbers});
+  forest_.emplace(frame.context(), each);
+  fields_->setRoots(forest_->roots());
+}
+
+gl::ShaderDefines FieldReader::traceDefines() const {
+  gl::ShaderDefines defines;
+  if (forest_) defines["RAY_FOREST"] = "1";
+  return defines;
+}
+
+void FieldReader::bindTrees(const gl::Program& program) const {
+  if (forest_)
+    forest_->bind(program);
+  else
+    tree_->tree().bind(program);
+}
+
+int64_t FieldReader::bytesHeld() const {
+  return fields_->bytesHeld() + objectOf_->bytes() + (tree_ ? tree_->bytes() : 0) +
+         (forest_ ? forest_->bytes() : 0);
 }
 
 void FieldReader::move(double timeS) {
@@ -348,57 +243,6 @@ std::vector<Quantity> FieldReader::quantities() {
       {"field_forms", "Different forms of fields that were chosen by size", "", Direction::Neither, "bench"},
       {"field_error_bound", "Bound of the error of fields that were chosen by size", "",
        Direction::LowerIsBetter, "bench"}};
-}
-
-ray_tracing::RayScene raysWithoutObjects(frame::Frame& frame, const ReceiverRays& rays) {
-  const ObjectTriangles others = objectTriangles(frame, objectsOf(frame, rays.objects), false);
-  return {frame.context(), others.vertices, others.triangles};
-}
-
-void ObjectTracer::prepare(frame::Frame& frame, const ReceiverRays& rays, const TracerSetting& tracer) {
-  const vf::RigidObjects objects = objectsOf(frame, rays.objects);
-  const ObjectTriangles all = objectTriangles(frame, objects);
-  const auto* grid = std::get_if<GridTracer>(&tracer);
-  if (!frame.scene().motions.empty()) {
-    if (grid)
-      throw Error("the cells of a grid are filled once, and parts of this scene move", "tracer",
-                  "use tracer: tree");
-    auto rebuilt = std::make_unique<ray_tracing::RebuiltTree>(frame.context(),
-                                                              static_cast<uint32_t>(all.triangles.size()));
-    rebuilt_ = rebuilt.get();
-    rays_ = std::move(rebuilt);
-    indices_.emplace(all.triangles);
-  } else if (grid)
-    rays_ = std::make_unique<ray_tracing::TriangleGrid>(frame.context(), all.vertices, all.triangles,
-                                                        grid->density);
-  else
-    rays_ = std::make_unique<ray_tracing::RayScene>(frame.context(), all.vertices, all.triangles);
-  objectOf_.emplace(objects.objectOf);
-}
-
-void ObjectTracer::update(frame::Frame& frame) {
-  if (rebuilt_) rebuilt_->build(frame.passes(), frame.positions(), *indices_);
-}
-
-gl::ShaderDefines ObjectTracer::defines(const TracerSetting& tracer) {
-  gl::ShaderDefines defines;
-  if (std::holds_alternative<GridTracer>(tracer)) defines["RAY_GRID"] = "1";
-  return defines;
-}
-
-void ObjectTracer::bind(const gl::Program& program) const {
-  rays_->bind(program);
-  objectOf_->bindStorage(vf::kFieldObjectOfBuffer);
-}
-
-void ObjectTracer::dispatchRows(const gl::Program& program, frame::Frame& frame, int rows) {
-  const int atOnce = frame.context().device().software ? 1 : rows;
-  for (int row = 0; row < rows; row += atOnce) {
-    program.set("firstRow", row);
-    program.set("lastRow", row + atOnce - 1);
-    program.dispatch(frame.sizePx());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  }
 }
 
 }  // namespace limen::techniques

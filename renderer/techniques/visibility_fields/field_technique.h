@@ -7,19 +7,22 @@
 #include <epoxy/gl.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "renderer/techniques/technique.h"
+#include "renderer/techniques/visibility_fields/doubtful_rays/doubtful_rays.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
 #include "renderer/techniques/visibility_fields/near_receivers/near_receivers.h"
+#include "renderer/techniques/visibility_fields/object_tracer.h"
 #include "renderer/techniques/visibility_fields/tile_filter.h"
 
 namespace limen::techniques {
 
 /// S: also `field`, a FieldReading, define(), which adds to the shader's defines, passes() over the
-/// picture for a number of objects, each with its own `passObject`, near() and kNearShader, which traces the
-/// rays of receivers that are near to an object.
+/// picture for a number of objects, each with its own `passObject`, near(), kNearShader, which traces all
+/// rays of receivers that are near to an object, and kDoubtfulShader, which traces single ones.
 template <class S>
 class FieldTechnique : public Technique {
  public:
@@ -28,20 +31,26 @@ class FieldTechnique : public Technique {
       : settings_(settings),
         reader_(settings.field),
         near_(settings.near()),
+        doubtful_(settings.near()),
         filter_(settings.rays.receiver, S::kPass, S::kFormat) {}
 
   void prepare(frame::Frame& frame) override {
-    reader_.prepare(frame, settings_.rays.receiver, true, near_.traced());
+    reader_.prepare(frame, settings_.rays.receiver, true, near_.traced() || doubtful_.traced());
     gl::ShaderDefines defines = reader_.defines();
     settings_.define(defines);
-    near_.prepare(frame, S::kNearShader, defines);
+    gl::ShaderDefines tracing = reader_.traceDefines();
+    tracing.insert(defines.begin(), defines.end());
+    near_.prepare(frame, S::kNearShader, tracing);
+    doubtful_.prepare(frame, S::kDoubtfulShader, tracing, S::kFormat, settings_.rays.receiver.rays);
     near_.define(defines);
+    doubtful_.define(defines);
     program_ = &frame.context().programs().compute(S::kShader, defines);
     defines["COUNT"] = "1";
     counting_ = &frame.context().programs().compute(S::kShader, defines);
     picture_.emplace(S::kFormat, frame.sizePx());
     filter_.prepare(frame);
-    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld() + near_.bytesHeld());
+    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld() + near_.bytesHeld() +
+                                              doubtful_.bytesHeld());
   }
   void render(frame::Frame& frame) override {
     run(frame, *program_, nullptr);
@@ -52,12 +61,14 @@ class FieldTechnique : public Technique {
     std::vector<Counter> out =
         reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
     out.push_back(near_.count(frame));
+    for (Counter& counter : doubtful_.count(frame)) out.push_back(std::move(counter));
     return out;
   }
   std::vector<std::string> remarks() const override { return reader_.remarks(); }
   static std::vector<Quantity> quantities() {
     std::vector<Quantity> out = FieldReader::quantities();
     out.push_back(NearReceivers::quantity());
+    for (Quantity& quantity : DoubtfulRays::quantities()) out.push_back(std::move(quantity));
     return out;
   }
 
@@ -68,6 +79,7 @@ class FieldTechnique : public Technique {
     reader_.place(frame);
     reader_.bind(program);
     near_.bindList(program);
+    doubtful_.bindList(program);
     if (counts) counts->bindStorage(kFieldCountsBuffer);
     settings_.rays.configure(program, frame);
     picture_->bindImage(kFieldOutImage, gl::Access::ReadWrite);
@@ -81,11 +93,14 @@ class FieldTechnique : public Technique {
       settings_.rays.configure(tracing, frame);
       picture_->bindImage(kFieldOutImage, gl::Access::Write);
     });
+    doubtful_.trace(reader_, frame, *picture_,
+                    [&](const gl::Program& tracing) { settings_.rays.configure(tracing, frame); });
   }
 
   S settings_;
   FieldReader reader_;
   NearReceivers near_;
+  DoubtfulRays doubtful_;
   TileFilter filter_;
   std::optional<gl::Texture> picture_;
   const gl::Program *program_ = nullptr, *counting_ = nullptr;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/base/enum_names.h"
-#include "renderer/techniques/visibility_fields/field_reader.h"
+#include "renderer/techniques/visibility_fields/receiver_rays.h"
 
 namespace limen::techniques {
 

@@ -7,6 +7,7 @@
 #include "renderer/frame/mirror_rays.h"
 #include "renderer/frame/shaded.h"
 #include "renderer/gl/program.h"
+#include "renderer/ray_tracing/ray_tree.h"
 #include "renderer/techniques/reflections/reflection_picture.h"
 
 namespace limen::techniques {

@@ -31,10 +31,22 @@ float seenPast(FieldReceiver receiver, uint index, vec3 direction) {
 #endif
 }
 
-// Past all: what the one lets through that lets through least.
+// Past all: what the one lets through that lets through least; fieldRange so, too.
 float seenPastAll(FieldReceiver receiver, vec3 direction) {
   float least = 1.0;
-  for (uint object = 0u; object < fieldObjectCount; ++object)
-    if (canBlock(receiver, object)) least = min(least, seenPast(receiver, object, direction));
+#ifdef FIELD_DOUBT
+  vec2 range = vec2(1.0);
+#endif
+  for (uint object = 0u; object < fieldObjectCount; ++object) {
+    if (!canBlock(receiver, object)) continue;
+    least = min(least, seenPast(receiver, object, direction));
+#ifdef FIELD_DOUBT
+    range = min(range, fieldRange);
+    if (range.y <= 0.0) break;  // whatever others let through
+#endif
+  }
+#ifdef FIELD_DOUBT
+  fieldRange = range;
+#endif
   return least;
 }

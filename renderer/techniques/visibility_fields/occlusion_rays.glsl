@@ -28,6 +28,12 @@ void makeRayTable() {
   barrier();
 }
 
+// Without the table.
+vec3 occlusionWay(OcclusionFrame frame, int ray) {
+  const vec3 local = fieldDirection((vec2(ray % raySide, ray / raySide) + frame.within) / float(raySide), kFieldConcentric);
+  return normalize(local.x * frame.x + local.y * frame.y + local.z * frame.z);
+}
+
 // Spread by the cosine. After makeRayTable().
 vec3 occlusionDirection(OcclusionFrame frame, int ray) {
   vec3 local;

@@ -6,7 +6,7 @@
 
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
-#include "renderer/techniques/visibility_fields/field_reader.h"
+#include "renderer/techniques/visibility_fields/receiver_rays.h"
 
 namespace limen::techniques {
 

@@ -5,6 +5,7 @@
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
 #include "tests/renderer/techniques/technique_fixture.h"
+#include "tests/renderer/visibility_fields/two_balls.h"
 
 namespace limen::techniques {
 namespace {
@@ -15,10 +16,6 @@ constexpr const char *kField = "visibility_fields/ambient_occlusion",
 
 class FieldOcclusionTest : public TechniqueTest {
  protected:
-  /// Straight down on the ground from below whatever hangs there.
-  static void lookDown(scene::Scene& scene) {
-    scene::setStillCamera(scene, {{0.0, 0.4, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 60.0});
-  }
   static glm::dvec3 groundPoint(int x, int y) {
     const double half = 0.4 * std::tan(glm::radians(30.0));
     return {(2.0 * (x + 0.5) / kSizePx.x - 1.0) * half * kSizePx.x / kSizePx.y, 0.0,
@@ -31,18 +28,6 @@ class FieldOcclusionTest : public TechniqueTest {
     return sum / (double(image.width) * image.height);
   }
 };
-
-/// Two balls that hang as one object above the ground.
-constexpr double kBall = 0.3;
-constexpr glm::dvec3 kFirst{-0.6, 1.0, 0.1}, kSecond{0.6, 1.2, -0.1};
-scene::Scene twoBalls() {
-  scene::Scene scene;
-  scene::addGround(scene, 8.0);
-  scene::Mesh balls = scene::sphere(kFirst, kBall, 24);
-  scene::append(balls, scene::sphere(kSecond, kBall, 24));
-  scene::addPart(scene, "balls", balls, glm::vec3(0.5F));
-  return scene;
-}
 
 /// A ball above the horizon hides sin^2 of its angular radius times the cosine of its middle (Nusselt's
 /// analogue).
@@ -60,8 +45,7 @@ double hiddenBy(glm::dvec3 ball, glm::dvec3 point) {
 // a distance up to 2: 0.08, by which a ball of 0.3 gains or loses up to 2 * 0.08 / 0.3 of its 0.17 together.
 // On average over the picture gains and losses cancel, to a tenth.
 TEST_F(FieldOcclusionTest, BallsHideWhatTheirSolidAnglesSay) {
-  scene::Scene scene = twoBalls();
-  lookDown(scene);
+  const scene::Scene scene = twoBallsOverGround();
   for (const bool traced : {true, false}) {
     Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}};
     if (!traced)
@@ -73,7 +57,7 @@ TEST_F(FieldOcclusionTest, BallsHideWhatTheirSolidAnglesSay) {
     for (int y = 0; y < kSizePx.y; ++y)
       for (int x = 0; x < kSizePx.x; ++x) {
         const glm::dvec3 p = groundPoint(x, y);
-        const double hidden = hiddenBy(kFirst, p) + hiddenBy(kSecond, p);
+        const double hidden = hiddenBy(kFirstBall, p) + hiddenBy(kSecondBall, p);
         ASSERT_NEAR(image.at(x, y), 1.0 - hidden, 0.017 + (traced ? 0.0 : 0.53 * hidden)) << x << ' ' << y;
         sum += image.at(x, y) - (1.0 - hidden);
       }
@@ -83,8 +67,7 @@ TEST_F(FieldOcclusionTest, BallsHideWhatTheirSolidAnglesSay) {
 
 // Errors of the thesis's fetch against the same rays fall with positions (Gaitatzes 2012, Fig. 35).
 TEST_F(FieldOcclusionTest, ErrorFallsWithPositions) {
-  scene::Scene scene = twoBalls();
-  lookDown(scene);
+  const scene::Scene scene = twoBallsOverGround();
   // As one object: around a ball alone its sphere errs no more with few positions than with many.
   const Given rays = {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image exact = render(scene, kTraced, rays, kSizePx).product;
@@ -103,8 +86,7 @@ TEST_F(FieldOcclusionTest, ErrorFallsWithPositions) {
 
 // Aimed rays err by their directions: each time half as far apart, from 1090 positions.
 TEST_F(FieldOcclusionTest, ErrorOfAimedRaysFallsWithDirections) {
-  scene::Scene scene = twoBalls();
-  lookDown(scene);
+  const scene::Scene scene = twoBallsOverGround();
   Given given = {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image exact = render(scene, kTraced, given, kSizePx).product;
   given.insert({{"positions", int64_t{1090}},
@@ -123,8 +105,7 @@ TEST_F(FieldOcclusionTest, ErrorOfAimedRaysFallsWithDirections) {
 // nothing in place of the distance between positions, and by as much only where it leaves the sphere: on
 // average half as much. Of three positions a part of what is left cancels. Neither rays nor storage differ.
 TEST_F(FieldOcclusionTest, AimedRaysErrLessThanParallelOnes) {
-  scene::Scene scene = twoBalls();
-  lookDown(scene);
+  const scene::Scene scene = twoBallsOverGround();
   Given given = {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
   const Image exact = render(scene, kTraced, given, kSizePx).product;
   given.insert(
@@ -163,11 +144,9 @@ TEST_F(FieldOcclusionTest, NeighboursAreKnownOnALatticeOfConcentricMaps) {
 
 // The same object twice: the nearest hit knows that they hide each other, products and sums do not.
 TEST_F(FieldOcclusionTest, CombinesObjectsAsItSays) {
-  scene::Scene one = twoBalls(), two = twoBalls();
-  scene::Mesh balls = scene::sphere(kFirst, kBall, 24);
-  scene::append(balls, scene::sphere(kSecond, kBall, 24));
-  scene::addPart(two, "again", balls, glm::vec3(0.5F));
-  lookDown(one), lookDown(two);
+  const scene::Scene one = twoBallsOverGround();
+  scene::Scene two = twoBallsOverGround();
+  scene::addPart(two, "again", ballMeshes(), glm::vec3(0.5F));
   const Given given = {{"rays", int64_t{64}},
                        {"radius", 10.0},
                        {"positions", int64_t{290}},

@@ -10,7 +10,7 @@
 #include "experiments/base/error.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_technique.h"
-#include "renderer/techniques/visibility_fields/near_receivers/near_receivers.h"
+#include "renderer/techniques/visibility_fields/near_receivers/near_setting.h"
 #include "renderer/techniques/visibility_fields/occlusion_settings.h"
 
 namespace limen::techniques {
@@ -58,6 +58,8 @@ struct FieldOcclusionSettings {
       "renderer/techniques/visibility_fields/ambient_occlusion/ambient_occlusion.comp.glsl";
   static constexpr const char* kNearShader =
       "renderer/techniques/visibility_fields/near_receivers/near_occlusion.comp.glsl";
+  static constexpr const char* kDoubtfulShader =
+      "renderer/techniques/visibility_fields/doubtful_rays/doubtful_occlusion.comp.glsl";
   static constexpr const char* kPass = "visibility_fields/occlusion";
   static constexpr gl::Format kFormat = gl::Format::RGBA32F;
 
@@ -73,6 +75,7 @@ struct FieldOcclusionSettings {
     return kTable;
   }
   void check() const {
+    checkNear(near(), field, "combine.near");
     if (field.use.spheres > 1 && !std::holds_alternative<NearestOfObjects>(combine))
       throw Error("'combine' other than nearest would count each of an object's 'spheres' by itself",
                   "spheres", "leave out 'spheres', or use combine: nearest");
@@ -91,7 +94,7 @@ struct FieldOcclusionSettings {
 
 const RegisteredTechnique<FieldTechnique<FieldOcclusionSettings>> kFieldOcclusion{
     {.name = "visibility_fields/ambient_occlusion",
-     .version = 3,
+     .version = 4,
      .summary = "Ambient occlusion by rays whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, sections 4.4 to 4.7 (VF-01 to VF-18)",
      .product = ProductKind::Colour,

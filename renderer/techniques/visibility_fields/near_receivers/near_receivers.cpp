@@ -11,24 +11,10 @@ namespace limen::techniques {
 
 static_assert(kNearGroup == kGroupSide * kGroupSide);
 
-const SettingsTable<NearByField>& NearByField::table() {
-  static const SettingsTable<NearByField> kTable = {};
-  return kTable;
-}
-
-const SettingsTable<NearTraced>& NearTraced::table() {
-  static const SettingsTable<NearTraced> kTable = {
-      {&NearTraced::footprints,
-       "footprints",
-       {0.0, 32.0},
-       "footprints",
-       "Distance of a surface to the receiver, along a ray that was looked up, below which all rays of the "
-       "pixel are traced, in distances at that surface between rays of the field"}};
-  return kTable;
-}
-
 void NearReceivers::define(gl::ShaderDefines& defines) const {
-  if (traced()) defines["FIELD_NEAR"] = "1";
+  if (!traced()) return;
+  defines["FIELD_NEAR"] = "1";
+  defines["NEAR_LIST"] = "1";
 }
 
 void NearReceivers::prepare(frame::Frame& frame, const std::string& shader,

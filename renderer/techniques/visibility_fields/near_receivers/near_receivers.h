@@ -7,35 +7,15 @@
 #include <string>
 #include <variant>
 
-#include "experiments/base/settings_table.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
+#include "renderer/techniques/visibility_fields/near_receivers/near_setting.h"
 
 namespace limen::techniques {
-
-struct NearByField {
-  static constexpr const char *kKind = "field", *kSummary = "their rays are looked up like all others";
-  static const SettingsTable<NearByField>& table();
-};
-struct NearTraced {
-  static constexpr const char
-      *kKind = "traced",
-      *kSummary =
-          "all rays of a pixel are traced if a look-up of one finds a surface that is nearer "
-          "than the field's own rays are fine, or finds that something blocks it but not where";
-  double footprints = 0.5;
-  static const SettingsTable<NearTraced>& table();
-};
-using NearSetting = std::variant<NearByField, NearTraced>;
-template <class S>
-Binding<S> nearBinding(NearSetting S::*member) {
-  return {member, "near", "Receivers that are near to an object",
-          "Gaitatzes 2012, section 4.4.2 (field); bench (traced)"};
-}
 
 /// Lists such receivers while fields are read, and then makes their pixels anew with traced rays. Nothing is
 /// read back.

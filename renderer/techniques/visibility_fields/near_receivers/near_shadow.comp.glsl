@@ -5,8 +5,6 @@
 
 layout(binding = kFieldOutImage, r32f) uniform writeonly image2D outImage;
 
-float seenAt(float distance) { return 1.0; }  // no field is read
-
 void main() {
   ivec2 pixel;
   FieldReceiver receiver;
@@ -17,7 +15,7 @@ void main() {
       ++rayIterations;
       const vec3 way = lightPoint(pixel, receiver, ivec2(i % raySide, i / raySide)) - receiver.origin;
       const float reach = length(way);
-      seen += nearIsBlocked(receiver, way / reach, reach) ? 0.0 : 1.0;
+      seen += isBlocked(receiver, way / reach, reach) ? 0.0 : 1.0;
     }
   seen = nearSum(seen) / float(raySide * raySide);
   if (listed && gl_LocalInvocationIndex == 0u) imageStore(outImage, pixel, vec4(seen));

@@ -9,11 +9,12 @@
 
 #include "experiments/base/enum_names.h"
 #include "renderer/frame/g_buffer.h"
-#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/techniques/visibility_fields/field_reader.h"
 #include "renderer/techniques/visibility_fields/lobe_rays.h"
+#include "renderer/techniques/visibility_fields/object_tracer.h"
+#include "renderer/techniques/visibility_fields/traced_triangles.h"
 
 namespace limen::techniques {
 namespace {
@@ -93,13 +94,13 @@ class FieldReflections : public Technique {
     rays.rays = settings_.rays.rays;
     rays.objects = settings_.objects;
     reader_.prepare(frame, rays, settings_.shading.smoothNormals);
-    others_.emplace(raysWithoutObjects(frame, rays));
+    others_.emplace(treeWithoutObjects(frame, rays));
     gl::ProgramCache& programs = frame.context().programs();
     const std::string folder = "renderer/techniques/visibility_fields/reflections/";
     gl::ShaderDefines defines = reader_.defines();
     hitsProgram_ = &programs.compute(folder + "field_hits.comp.glsl", defines);
     hits_.emplace(gl::Format::RGBA32UI, frame.sizePx(), 1, static_cast<int>(settings_.rays.rays));
-    int64_t bytes = hits_->bytes() + reader_.bytesHeld();
+    int64_t bytes = hits_->bytes() + reader_.bytesHeld() + others_->bytes();
     if (settings_.primary == PrimaryRays::Field) {
       primaryProgram_ = &programs.compute(folder + "field_primary.comp.glsl", defines);
       for (auto* texture : {&origins_, &mirrored_, &normals_})
@@ -114,6 +115,8 @@ class FieldReflections : public Technique {
   void render(frame::Frame& frame) override {
     const frame::MirrorRays& exact = frame.get<frame::MirrorRays>();
     frame.get<frame::TriangleIds>();
+    reader_.place(frame);
+    others_->update(frame);
     LobeStart start{&exact.origins(), &exact.directions()};
     if (primaryProgram_) start = primary(frame, start);
     lobes_.makeRays(frame, start);
@@ -121,7 +124,7 @@ class FieldReflections : public Technique {
       const auto scope = frame.passes().open(std::string(kFieldReflections) + "/look_up");
       lookUp(frame, *hitsProgram_, start);
     }
-    lobes_.shade(frame, start, &*hits_, &*others_);
+    lobes_.shade(frame, start, &*hits_, &others_->tree());
   }
 
   const gl::Texture& product() const override { return lobes_.picture(); }
@@ -170,7 +173,7 @@ class FieldReflections : public Technique {
   Settings settings_;
   FieldReader reader_;
   LobeReflections lobes_;
-  std::optional<ray_tracing::RayScene> others_;
+  std::optional<TracedTriangles> others_;
   std::optional<gl::Texture> hits_, origins_, mirrored_, normals_;
   const gl::Program *hitsProgram_ = nullptr, *countingProgram_ = nullptr, *primaryProgram_ = nullptr;
 };
@@ -182,6 +185,7 @@ const RegisteredTechnique<FieldReflections> kFieldReflectionsRegistered{
      .source = "Gaitatzes 2012, section 4.7.2 (VF-20, VF-21)",
      .product = ProductKind::Colour,
      .needs = {"mirrors", "casters"},
+     .followsMotion = true,
      .counters = FieldReader::quantities(),
      .effort = "rays"}};
 

@@ -3,7 +3,7 @@
 // the ray to it is less than its own. Source: Gaitatzes 2012, section 4.7.2 (spherical lights, 20 rays each).
 #include "renderer/techniques/visibility_fields/field_technique.h"
 #include "renderer/techniques/visibility_fields/light_rays.h"
-#include "renderer/techniques/visibility_fields/near_receivers/near_receivers.h"
+#include "renderer/techniques/visibility_fields/near_receivers/near_setting.h"
 
 namespace limen::techniques {
 namespace {
@@ -13,6 +13,8 @@ struct FieldShadowSettings {
       "renderer/techniques/visibility_fields/soft_shadows/soft_shadows.comp.glsl";
   static constexpr const char* kNearShader =
       "renderer/techniques/visibility_fields/near_receivers/near_shadow.comp.glsl";
+  static constexpr const char* kDoubtfulShader =
+      "renderer/techniques/visibility_fields/doubtful_rays/doubtful_shadow.comp.glsl";
   static constexpr const char* kPass = "visibility_fields/soft_shadows";
   static constexpr gl::Format kFormat = gl::Format::R32F;
 
@@ -25,6 +27,7 @@ struct FieldShadowSettings {
                                             nearBinding(&S::nearSetting)};
     return kTable;
   }
+  void check() const { checkNear(nearSetting, field, "near"); }
   NearSetting near() const { return nearSetting; }
   int passes(uint32_t) const { return 1; }
   void define(gl::ShaderDefines&) const {}
@@ -32,7 +35,7 @@ struct FieldShadowSettings {
 
 const RegisteredTechnique<FieldTechnique<FieldShadowSettings>> kFieldShadows{
     {.name = "visibility_fields/soft_shadows",
-     .version = 3,
+     .version = 4,
      .summary = "Soft shadows by rays to a light whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-19)",
      .product = ProductKind::Visibility,

@@ -2,6 +2,7 @@
 // Mean visibility over a pixel's rays, traced against the objects' triangles.
 #include "renderer/techniques/visibility_fields/occlusion_rays.glsl"
 #include "renderer/techniques/visibility_fields/object_trace.glsl"
+#include "renderer/techniques/visibility_fields/traced_visibility.glsl"
 
 layout(binding = kFieldOutImage, rgba32f) uniform image2D outImage;
 uniform int firstRow, lastRow;  // of the rays' cells
@@ -18,15 +19,8 @@ void main() {
   const OcclusionFrame frame = occlusionFrame(pixel, receiver);
   float open = firstRow == 0 ? 0.0 : imageLoad(outImage, pixel).x;
   for (int y = firstRow; y <= lastRow; ++y)
-    for (int x = 0; x < raySide; ++x) {
-      const vec3 direction = occlusionDirection(frame, y * raySide + x);
-      if (falloff == kFalloffBinary) {
-        open += isBlocked(receiver, direction, falloffRadius) ? 0.0 : 1.0;
-      } else {
-        const float nearest = tracedDistance(receiver, direction);
-        open += nearest < 0.0 ? 1.0 : visibilityAt(nearest);
-      }
-    }
+    for (int x = 0; x < raySide; ++x)
+      open += tracedVisibility(receiver, occlusionDirection(frame, y * raySide + x));
   if (lastRow == raySide - 1) open /= float(raySide * raySide);
   imageStore(outImage, pixel, rayCutShort ? vec4(uintBitsToFloat(0x7fc00000u)) : vec4(vec3(open), 1.0));
 }

@@ -5,6 +5,7 @@
 
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/lobe_rays.h"
+#include "renderer/techniques/visibility_fields/traced_triangles.h"
 
 namespace limen::techniques {
 namespace {
@@ -26,19 +27,25 @@ class TracedLobeReflections : public Technique {
       : lobes_(settings.rays, settings.shading, "visibility_fields/traced_reflections") {}
 
   void prepare(frame::Frame& frame) override {
-    frame.gpuScene().rays(frame.context());
+    // Where nothing moves, the tree that techniques share.
+    if (frame.scene().motions.empty())
+      frame.gpuScene().rays(frame.context());
+    else
+      moving_.emplace(frame, frame.scene().mesh.triangles);
     lobes_.prepare(frame, false, false);
   }
   void render(frame::Frame& frame) override {
     const frame::MirrorRays& exact = frame.get<frame::MirrorRays>();
     const LobeStart start{&exact.origins(), &exact.directions()};
+    if (moving_) moving_->update(frame);
     lobes_.makeRays(frame, start);
-    lobes_.shade(frame, start, nullptr, nullptr);
+    lobes_.shade(frame, start, nullptr, moving_ ? &moving_->tree() : nullptr);
   }
   const gl::Texture& product() const override { return lobes_.picture(); }
 
  private:
   LobeReflections lobes_;
+  std::optional<TracedTriangles> moving_;
 };
 
 const RegisteredTechnique<TracedLobeReflections> kTracedLobes{
@@ -49,6 +56,7 @@ const RegisteredTechnique<TracedLobeReflections> kTracedLobes{
      .product = ProductKind::Colour,
      .needs = {"mirrors"},
      .reference = true,
+     .followsMotion = true,
      .effort = "rays"}};
 
 }  // namespace

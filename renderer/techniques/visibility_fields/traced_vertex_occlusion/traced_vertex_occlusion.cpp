@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rays of visibility_fields/vertex_occlusion, traced by Embree: a ray caster with a bounding hierarchy on
 // the CPU. Source: Gaitatzes 2012, section 4.6 (BL-01).
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
+#include "renderer/scene/part_motion.h"
 #include "renderer/techniques/visibility_fields/vertex_occlusion/vertex_technique.h"
 #include "renderer/visibility_fields/object_rays.h"
 
@@ -26,17 +31,29 @@ class TracedVertexOcclusion : public VertexTechnique {
  protected:
   /// All objects in one tree, relative to the first one's centre.
   int64_t prepareObjects(const std::vector<visibility_fields::RigidObject>& objects) override {
-    std::vector<glm::vec3> vertices;
-    std::vector<glm::uvec3> triangles;
+    rest_.clear(), vertices_.clear(), triangles_.clear(), ranges_.clear();
     if (!objects.empty()) middle_ = objects[0].sphere.centre;
     for (const visibility_fields::RigidObject& object : objects) {
-      const auto first = static_cast<uint32_t>(vertices.size());
-      for (const glm::vec3 v : object.vertices)
-        vertices.emplace_back(object.sphere.centre - middle_ + object.sphere.radius * glm::dvec3(v));
-      for (const glm::uvec3 t : object.triangles) triangles.push_back(t + first);
+      const size_t first = rest_.size();
+      for (const glm::vec3 v : object.vertices) {
+        rest_.push_back(object.sphere.centre + object.sphere.radius * glm::dvec3(v));
+        vertices_.emplace_back(rest_.back() - middle_);
+      }
+      for (const glm::uvec3 t : object.triangles) triangles_.push_back(t + static_cast<uint32_t>(first));
+      ranges_.push_back({object.part, first, rest_.size()});
     }
-    rays_.emplace(vertices, triangles);
-    return static_cast<int64_t>(vertices.size() * sizeof(glm::vec3) + triangles.size() * sizeof(glm::uvec3));
+    rays_.emplace(vertices_, triangles_);
+    return static_cast<int64_t>(vertices_.size() * sizeof(glm::vec3) + triangles_.size() * sizeof(glm::uvec3));
+  }
+  /// Builds the tree anew of moved vertices, whatever poses fields are placed in.
+  void place(const scene::Scene& scene, double timeS) override {
+    for (const scene::PartMotion& motion : scene.motions) {
+      const glm::dmat4 now = motion.at(timeS);
+      for (const Range& range : ranges_)
+        for (size_t i = range.first; i < range.last && range.part == motion.part; ++i)
+          vertices_[i] = glm::vec3(glm::dvec3(now * glm::dvec4(rest_[i], 1.0)) - middle_);
+    }
+    rays_.emplace(vertices_, triangles_);
   }
   void distances(glm::dvec3 origin, std::span<const glm::dvec3> directions, double far,
                  std::span<double> out) const override {
@@ -48,7 +65,15 @@ class TracedVertexOcclusion : public VertexTechnique {
   }
 
  private:
+  struct Range {  ///< of an object's vertices
+    uint32_t part;
+    size_t first, last;
+  };
   glm::dvec3 middle_{0.0};
+  std::vector<glm::dvec3> rest_;
+  std::vector<glm::vec3> vertices_;
+  std::vector<glm::uvec3> triangles_;
+  std::vector<Range> ranges_;
   std::optional<visibility_fields::ObjectRays> rays_;
 };
 
@@ -60,6 +85,7 @@ const RegisteredTechnique<TracedVertexOcclusion> kTracedVertexOcclusion{
      .product = ProductKind::Colour,
      .needs = {"casters"},
      .reference = true,
+     .followsMotion = true,
      .onCpu = true,
      .counters = VertexTechnique::quantities(),
      .effort = "rays"}};

@@ -8,6 +8,7 @@
 
 #include "experiments/base/error.h"
 #include "renderer/frame/g_buffer.h"
+#include "renderer/scene/part_motion.h"
 #include "renderer/techniques/visibility_fields/field_pass_bindings.h"
 #include "renderer/visibility_fields/all_cores.h"
 #include "renderer/visibility_fields/map_functions.h"
@@ -70,7 +71,9 @@ void VertexTechnique::prepare(frame::Frame& frame) {
   radius_ = rays_.radius * frame.gpuScene().diagonal();
   // Of a binary falloff nothing farther counts.
   far_ = rays_.falloff == Falloff::Binary ? radius_ : 1e30;
-  vertices_ = receivingVertices(frame.scene());
+  rest_ = receivingVertices(frame.scene());
+  vertices_ = rest_;
+  motions_ = scene::motionsOfVertices(frame.scene());
   if (vertices_.empty())
     throw Error("no part of the scene only receives, so that there are no vertices to occlude", {},
                 "use 'tessellated_corner', or a scene over a ground");
@@ -118,6 +121,16 @@ double VertexTechnique::openShare(const OccludedVertex& vertex) const {
   return open / double(directions_.size());
 }
 
+void VertexTechnique::moveVertices(const scene::Scene& scene, double timeS) {
+  for (size_t i = 0; i < rest_.size(); ++i) {
+    const uint32_t motion = motions_[rest_[i].number];
+    if (motion == 0) continue;
+    const glm::dmat4 now = scene.motions[motion - 1].at(timeS);
+    vertices_[i].position = glm::dvec3(now * glm::dvec4(rest_[i].position, 1.0));
+    vertices_[i].normal = glm::normalize(glm::dmat3(now) * rest_[i].normal);
+  }
+}
+
 void VertexTechnique::render(frame::Frame& frame) {
   const gl::Texture& positions =
       frame.get<frame::GBufferChannel>(frame::ChannelSetting{frame::Channel::Position}).texture();
@@ -125,6 +138,10 @@ void VertexTechnique::render(frame::Frame& frame) {
   {
     const auto scope = frame.passes().open(pass_);
     const auto start = std::chrono::steady_clock::now();
+    if (!frame.scene().motions.empty()) {
+      moveVertices(frame.scene(), frame.timeS());
+      place(frame.scene(), frame.timeS());
+    }
     vf::onAllCores(vertices_.size(), [&](size_t i) {
       values_[vertices_[i].number] = static_cast<float>(openShare(vertices_[i]));
     });

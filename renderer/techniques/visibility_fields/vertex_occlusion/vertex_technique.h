@@ -47,15 +47,19 @@ class VertexTechnique : public Technique {
   /// Distances along unit directions to the nearest object, up to `far`; negative: none. On any thread.
   virtual void distances(glm::dvec3 origin, std::span<const glm::dvec3> directions, double far,
                          std::span<double> out) const = 0;
+  /// Where parts move: puts the objects where they are at a time. Before distances(), in each frame.
+  virtual void place(const scene::Scene& scene, double timeS) = 0;
   virtual void addCounters(std::vector<Counter>&) const {}
 
  private:
   double openShare(const OccludedVertex& vertex) const;
+  void moveVertices(const scene::Scene& scene, double timeS);
 
   VertexRays rays_;
   std::string pass_;
   double radius_ = 0.0, far_ = 0.0, makeS_ = 0.0, occlusionS_ = 0.0;
-  std::vector<OccludedVertex> vertices_;
+  std::vector<OccludedVertex> rest_, vertices_;  ///< where they rest; where they are
+  std::vector<uint32_t> motions_;                ///< of all vertices of the scene (motionsOfVertices())
   std::vector<glm::dvec3> directions_;  ///< about z
   std::vector<float> values_;
   std::optional<gl::Buffer> onGpu_;
