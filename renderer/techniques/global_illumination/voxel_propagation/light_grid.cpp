@@ -4,9 +4,11 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 
+#include "experiments/base/error.h"
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/light_box.h"
@@ -21,9 +23,6 @@ namespace {
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
-/// More repeat work around each group; software renderers are only slowed down by that.
-constexpr int kStepsTogetherOnGpu = 1;
-
 constexpr const char* kArrivePass = "global_illumination/arrive";
 
 const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
@@ -61,10 +60,6 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
-  if (settings.steps.sources == LightSources::Steady && settings.steps.stopBelow == 0.0)
-    together_ = settings.steps.together > 0 ? settings.steps.together
-                : context.device().software ? 1
-                                            : kStepsTogetherOnGpu;
   compile(frame);
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
@@ -93,9 +88,10 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
       shares_.emplace(gl::Format::RGBA32F, sides, 1);
     shares_->write(kTable);
   }
+  tryStepsAtOnce(frame);
   frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
   frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
-  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes());
+  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes() + (resident_ ? resident_->bytes() : 0));
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
@@ -122,31 +118,80 @@ void LightGrid::compile(frame::Frame& frame) {
   arriving["ARRIVED_FORMAT"] = summed ? "rgba32f" : defines["FIELD_FORMAT"];
   arriving["ARRIVED_ACCESS"] = summed ? "" : "writeonly";
   if (summed) arriving["SUMMED"] = "1";
+  arriveDefines_ = arriving;
   arrive_ = &programs.compute(kLightGridFolder + "arrive.comp.glsl", arriving);
   defineEnum(defines, "REFLECTION", settings_.reflection);
   defineEnum(defines, "ALBEDO", settings_.albedo);
   if (settings_.steps.stopBelow > 0.0) defines["STOPS"] = "1";
   if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
   if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
-  defines["STEPS_TOGETHER"] = "1";
   propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  defines["STEPS_TOGETHER"] = std::to_string(together_);
-  propagateTogether_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  for (const gl::Program* program : {propagate_, propagateTogether_, arrive_}) {
-    if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
-      const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
-      setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
-    } else if (const auto* components = std::get_if<ComponentTransport>(&settings_.transport)) {
-      // So that six neighbours of equal light keep it.
-      setCone(*program, components->halfAngleDeg,
-              1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
+  stepDefines_ = defines;
+  for (const gl::Program* program : {propagate_, arrive_}) setTransport(*program);
+}
+
+void LightGrid::setTransport(const gl::Program& program) const {
+  if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
+    const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
+    setCone(program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
+  } else if (const auto* components = std::get_if<ComponentTransport>(&settings_.transport)) {
+    // So that six neighbours of equal light keep it.
+    setCone(program, components->halfAngleDeg,
+            1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
+  }
+}
+
+void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
+  const StepDispatch wanted = settings_.steps.dispatch;
+  const bool needed = wanted == StepDispatch::Once;
+  if (wanted == StepDispatch::Each || settings_.iterations < 1 || settings_.steps.stopBelow > 0.0 ||
+      settings_.steps.sources == LightSources::Once)
+    return;
+  const glm::ivec3 size = volume_->grid().resolution, tile = ResidentSteps::tileOf(size);
+  const glm::ivec3 groups = (size + tile - 1) / tile;
+  const std::string what = std::to_string(groups.x * groups.y * groups.z) + " groups";
+  std::string reason;
+  if (!std::getenv("LIMEN_TRY") && frame.context().device().software && groups != glm::ivec3(1)) {
+    reason = "a software renderer does not run " + what + " at a time";
+  } else {
+    gl::ShaderDefines defines = stepDefines_;
+    ResidentSteps::define(defines, tile);
+    residentProgram_ =
+        &frame.context().programs().compute(kLightGridFolder + "propagate_resident.comp.glsl", defines);
+    setTransport(*residentProgram_);
+    resident_.emplace(*residentProgram_, size, tile, source_->format());
+    lightCells_->clearUint(glm::uvec4(0));
+    fields_->clear(glm::vec4(0.0F));
+    source_->clear(glm::vec4(0.0F));
+    restartSteps(true);
+    if (!resident_->works()) {
+      resident_.reset();
+      residentProgram_ = nullptr;
+      reason = "the device did not run " + what + " at a time when they were tried";
     }
   }
+  if (resident_) {
+    gl::ShaderDefines arriving = arriveDefines_;
+    arriving["RESIDENT"] = "1";
+    arrive_ = &frame.context().programs().compute(kLightGridFolder + "arrive.comp.glsl", arriving);
+    setTransport(*arrive_);
+  }
+  if (needed && !resident_)
+    throw Error("cannot do all steps of light in one dispatch: " + reason + "; use dispatch: fitting");
+  stepsRemark_ = resident_ ? "Steps of light are one dispatch of " + what + ", which were tried on this device."
+                           : "Steps of light are one dispatch each: " + reason + ".";
+}
+
+void LightGrid::checkSteps() const {
+  if (resident_ && resident_->stuck())
+    throw Error(
+        "groups of a dispatch waited for each other in vain, so that light is missing: another program may "
+        "have used the GPU; run it again, or with steps: {dispatch: each}");
 }
 
 int64_t LightGrid::bytes() const {
   return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + fields_->bytes() +
-         lightCells_->bytes() + arrived_->bytes();
+         lightCells_->bytes() + arrived_->bytes() + (resident_ ? resident_->bytes() : 0);
 }
 
 void LightGrid::update(frame::Frame& frame) {
@@ -165,15 +210,15 @@ void LightGrid::update(frame::Frame& frame) {
   const auto scope = frame.passes().open(kPropagatePass);
   const bool lasting = settings_.steps.sources == LightSources::Steady;
   restartSteps(lasting);
-  const int together = together_;
-  if (together > 1)
-    for (int left = settings_.iterations; left > 0; left -= together)
-      propagateTogether(std::min(left, together));
-  else
+  if (resident_) {
+    resident_->run(from_, settings_.iterations);
+    from_ = 1 - from_;
+  } else {
     for (int step = 0; step < settings_.iterations; ++step) {
       if (!lasting) arrive(step == 0);
       propagate();
     }
+  }
   if (lasting || settings_.iterations == 0) arrive(true);
 }
 
@@ -245,7 +290,8 @@ void LightGrid::restartSteps(bool lasting) {
     changes_.clearUint(0);
     propagate_->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
   }
-  for (const gl::Program* program : {arrive_, propagate_, propagateTogether_}) {
+  for (const gl::Program* program : {arrive_, propagate_, residentProgram_}) {
+    if (!program) continue;
     volume_->configure(*program);
     program->set("from", from_);
     program->set("lasting", lasting ? 1 : 0);
@@ -272,19 +318,8 @@ void LightGrid::propagate() {
   ++step_;
 }
 
-void LightGrid::propagateTogether(int steps) {
-  propagateTogether_->set("from", from_);
-  propagateTogether_->set("steps", steps);
-  propagateTogether_->use();
-  const glm::ivec3 groups = (volume_->grid().resolution + (kPropagateGroup - 1)) / kPropagateGroup;
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(3 * groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  from_ = 1 - from_;
-  step_ += steps;
-}
-
 void LightGrid::arrive(bool first) {
+  if (resident_) resident_->signals().bindStorage(kStepSignalsBuffer);
   arrive_->set("from", from_);
   arrive_->set("first", first ? 1 : 0);
   arrive_->use();

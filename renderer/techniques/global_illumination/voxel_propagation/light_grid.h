@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/frame/light_paths.h"
@@ -11,6 +12,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gl/volume_texture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/resident_steps.h"
 #include "renderer/voxels/voxelizer.h"
 
 namespace limen::techniques {
@@ -41,21 +43,23 @@ class LightGrid {
   /// that was put in once.
   void start(frame::Frame& frame);
   void propagate();
-  /// Steps of one dispatch at most, with the same result.
-  int stepsTogether() const { return together_; }
-  /// That many steps in one dispatch.
-  void propagateTogether(int steps);
+  /// How steps are given to the GPU: whether all are one dispatch, and why.
+  bool stepsAtOnce() const { return resident_.has_value(); }
+  const std::string& stepsRemark() const { return stepsRemark_; }
   /// Adds what the field sends to occupied voxels to what has arrived, or replaces it.
   void arrive(bool first);
   /// One layer of the field, flux and vector of each voxel: light on its way. Waits for the GPU.
   Image fieldLayer(int channel, int z) const;
   /// Flux that the field holds, per channel, in radiance times world units squared. Waits for the GPU.
   glm::dvec3 flux() const;
+  /// Throws Error if steps in one dispatch have ever waited for each other in vain. Waits for the GPU.
+  void checkSteps() const;
   /// Samples of surfaces whose light found no empty voxel. Waits for the GPU.
   uint32_t homeless() const;
 
  private:
   void compile(frame::Frame& frame);
+  void setTransport(const gl::Program& program) const;
   /// Where the voxels are in this frame; true if they have moved.
   bool place(const frame::Frame& frame);
   void configureBounds(const gl::Program& program) const;
@@ -64,6 +68,8 @@ class LightGrid {
   /// is put in.
   void inject(frame::Frame& frame, int axis, bool restart);
   void restartSteps(bool lasting);
+  /// Settles whether steps are one dispatch.
+  void tryStepsAtOnce(frame::Frame& frame);
 
   LightGridSettings settings_;
   frame::SurfaceLightSettings lighting_;
@@ -71,17 +77,19 @@ class LightGrid {
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   const gl::Program *inject_ = nullptr, *cells_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr,
-                    *propagateTogether_ = nullptr, *arrive_ = nullptr, *flux_ = nullptr;
+                    *residentProgram_ = nullptr, *arrive_ = nullptr, *flux_ = nullptr;
   std::optional<gl::Texture> samples_, sums_, source_, arrived_, lightCells_;
   /// Two, of which a step reads one and writes the other. Both are one texture, so that nothing is bound
   /// between steps: drivers take longer for that than small grids do for a step.
   std::optional<gl::Texture> fields_;
   std::optional<gl::VolumeTexture> shares_;
   std::vector<gl::Texture> sumsOfAxis_;
+  std::optional<ResidentSteps> resident_;
+  std::string stepsRemark_;
+  gl::ShaderDefines stepDefines_, arriveDefines_;
   gl::Buffer counts_, layerSums_, changes_;
   uint32_t sampleCount_ = 0;
   int64_t frames_ = 0;
-  int together_ = 1;
   int step_ = 0;  ///< of this frame
   int from_ = 0;  ///< the field that holds the light
 };

@@ -63,13 +63,8 @@ const SettingsTable<StepSettings>& StepSettings::table() {
   using S = StepSettings;
   static const SettingsTable<S> kTable = {
       {&S::sources, "sources", "When light is put in", "Gaitatzes 2012, section 5.5.2"},
-      {&S::together,
-       "together",
-       {0, 3},
-       "",
-       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in "
-       "once "
-       "or steps may stop early",
+      {&S::dispatch, "dispatch",
+       "Dispatches that steps are done in, with the same result: all in one where the device keeps its groups running, one each elsewhere",
        "the bench's own"},
       {&S::stopBelow,
        "stop_below",

@@ -99,9 +99,19 @@ struct UpdateOn {
 };
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
+/// How steps are given to the GPU; all with the same result.
+enum class StepDispatch {
+  Fitting,  ///< once where that works, else each
+  Once,     ///< all in one, whose groups wait for each other
+  Each
+};
+constexpr EnumNames<StepDispatch, 3> enumNames(StepDispatch) {
+  return {{{{StepDispatch::Fitting, "fitting"}, {StepDispatch::Once, "once"}, {StepDispatch::Each, "each"}}}};
+}
+
 struct StepSettings {
   LightSources sources = LightSources::Steady;
-  int together = 0;
+  StepDispatch dispatch = StepDispatch::Fitting;
   double stopBelow = 0.0;
   static const SettingsTable<StepSettings>& table();
 };

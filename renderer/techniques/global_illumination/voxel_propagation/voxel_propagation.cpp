@@ -109,7 +109,13 @@ class VoxelPropagation : public Technique {
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
+  std::vector<std::string> remarks() const override {
+    if (!light_ || light_->stepsRemark().empty()) return {};
+    return {light_->stepsRemark()};
+  }
+
   std::vector<Counter> count(frame::Frame& frame) override {
+    light_->checkSteps();
     const auto meanFlux = [&] {
       const glm::dvec3 flux = light_->flux();
       return (flux.r + flux.g + flux.b) / 3.0;

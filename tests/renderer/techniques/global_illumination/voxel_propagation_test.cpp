@@ -227,36 +227,6 @@ TEST_F(VoxelPropagationLight, EdgesOfTurnedWallsAreNotLitFromTheirFarSides) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], reference[c], 0.25 * reference[c]) << "channel " << c;
 }
 
-/// Several steps of one dispatch are those of as many, in grids of whole groups or not: to the same bits but
-/// for what a compiler makes of the same sums, which is a rounding of the field, 2^-12, where it falls, or
-/// 2^-24 of floats.
-TEST_F(VoxelPropagationLight, StepsTogetherAreStepsOneByOne) {
-  const scene::Scene rooms[] = {makeScene("global_illumination/room"),
-                                makeScene("global_illumination/divided_room", {{"transmittance", 0.5}}),
-                                makeScene("global_illumination/stand_in", {{"turn_deg", 30.0}})};
-  for (const scene::Scene& scene : rooms)
-    for (const char* format : {"16f", "32f"})
-      for (const int64_t iterations : {6, 13}) {
-        const auto of = [&](int64_t together) {
-          return indirect(scene, {{"steps.together", together},
-                                  {"iterations", iterations},
-                                  {"resolution", int64_t{14}},
-                                  {"format", std::string(format)}})
-              .product;
-        };
-        const Image single = of(1);
-        double largest = 0.0;
-        for (const float value : single.data) largest = std::max(largest, double(value));
-        for (const int64_t together : {2, 3}) {
-          const Image found = of(together);
-          for (size_t i = 0; i < found.data.size(); ++i)
-            ASSERT_NEAR(found.data[i], single.data[i],
-                        (std::string(format) == "16f" ? double(iterations) / 4096.0 : 1e-6) * largest)
-                << format << ", " << together << ", " << iterations;
-        }
-      }
-}
-
 /// GI-12. Where nothing moves, what is spread over frames ends as what is made at once. The field tends to
 /// its limit from below by the factor of a bounce, .7, in each crossing of the room, some 16 steps: after 512
 /// steps all have less than .7^32 = 1e-5 of it to go; half floats, each step's rounding of 2^-12, stop there
