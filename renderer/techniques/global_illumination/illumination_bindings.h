@@ -46,6 +46,7 @@ const int kCellLight = 13;
 const int kCellEdge = 14;  // surfaces of several directions: an edge, a thin wall
 const uint kPropagateChangesBuffer = 8u;
 const uint kPropagateSumImage = 2u;
+const uint kReflectedImage = 2u;
 const uint kStepSignalsBuffer = 8u;
 const uint kStepLightsBuffer = 9u;
 const uint kSignalStride = 8u;  // words from one group's signal to the next: 32 bytes, a sector of caches

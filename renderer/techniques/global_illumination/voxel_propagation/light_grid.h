@@ -12,6 +12,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gl/volume_texture.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/light_programs.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/resident_steps.h"
 #include "renderer/voxels/voxelizer.h"
 
@@ -58,8 +59,6 @@ class LightGrid {
   uint32_t homeless() const;
 
  private:
-  void compile(frame::Frame& frame);
-  void setTransport(const gl::Program& program) const;
   /// Where the voxels are in this frame; true if they have moved.
   bool place(const frame::Frame& frame);
   void configureBounds(const gl::Program& program) const;
@@ -67,7 +66,13 @@ class LightGrid {
   /// Of surfaces that face `axis`, if they are put in apart; negative: all. `restart`: the field becomes what
   /// is put in.
   void inject(frame::Frame& frame, int axis, bool restart);
-  void restartSteps(bool lasting);
+  void restartSteps(bool lasting, const gl::Texture& source);
+  int reading() const { return 2 * pair_ + from_; }
+  int writing() const { return 2 * pair_ + 1 - from_; }
+  /// All steps of the field in use, and what arrives by them. `first`: it replaces what has arrived.
+  void spread(bool first, bool reflects);
+  /// Makes the source of the next bounce, or adds to it, from what the field in use reflects.
+  void reflect(bool adds, bool first, bool seeds, int to);
   /// Settles whether steps are one dispatch.
   void tryStepsAtOnce(frame::Frame& frame);
 
@@ -76,22 +81,23 @@ class LightGrid {
   scene::Bounds bounds_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
-  const gl::Program *inject_ = nullptr, *cells_ = nullptr, *seed_ = nullptr, *propagate_ = nullptr,
-                    *residentProgram_ = nullptr, *arrive_ = nullptr, *flux_ = nullptr;
-  std::optional<gl::Texture> samples_, sums_, source_, arrived_, lightCells_;
-  /// Two, of which a step reads one and writes the other. Both are one texture, so that nothing is bound
+  std::optional<LightPrograms> programs_;
+  const gl::Program* residentProgram_ = nullptr;
+  std::optional<gl::Texture> samples_, sums_, source_, reflected_, arrived_, lightCells_;
+  /// Pairs, of which a step reads one field and writes the other. All are one texture, so that nothing is bound
   /// between steps: drivers take longer for that than small grids do for a step.
   std::optional<gl::Texture> fields_;
   std::optional<gl::VolumeTexture> shares_;
   std::vector<gl::Texture> sumsOfAxis_;
   std::optional<ResidentSteps> resident_;
   std::string stepsRemark_;
-  gl::ShaderDefines stepDefines_, arriveDefines_;
   gl::Buffer counts_, layerSums_, changes_;
   uint32_t sampleCount_ = 0;
   int64_t frames_ = 0;
   int step_ = 0;  ///< of this frame
-  int from_ = 0;  ///< the field that holds the light
+  int pairs_ = 1;
+  int pair_ = 0;  ///< of fields, that is in use
+  int from_ = 0;  ///< of the pair, the field that holds the light
 };
 
 }  // namespace limen::techniques

@@ -109,11 +109,27 @@ constexpr EnumNames<StepDispatch, 3> enumNames(StepDispatch) {
   return {{{{StepDispatch::Fitting, "fitting"}, {StepDispatch::Once, "once"}, {StepDispatch::Each, "each"}}}};
 }
 
+/// How often light is reflected.
+struct AllBounces {
+  static constexpr const char *kKind = "all", *kSummary = "as often as steps allow, all in one field";
+};
+struct LimitedBounces {
+  static constexpr const char
+      *kKind = "limited",
+      *kSummary =
+          "light of each bounce in a field of its own, one after another, at the cost of as many "
+          "propagations; surfaces absorb the last";
+  int most = 2;
+  static const SettingsTable<LimitedBounces>& table();
+};
+using GridBounces = std::variant<AllBounces, LimitedBounces>;
+
 struct StepSettings {
   LightSources sources = LightSources::Steady;
   StepDispatch dispatch = StepDispatch::Fitting;
   double stopBelow = 0.0;
   static const SettingsTable<StepSettings>& table();
+  void check() const;
 };
 
 struct LightGridSettings {
@@ -126,8 +142,16 @@ struct LightGridSettings {
   voxels::Coverage coverage = voxels::Coverage::Thin;
   GridBox box;
   GridUpdate update;
+  GridBounces bounces;
   InjectionSettings injection;
   static const SettingsTable<LightGridSettings>& table();
+  /// Fields that light goes through one after another.
+  int generations() const {
+    const auto* limited = std::get_if<LimitedBounces>(&bounces);
+    return limited ? limited->most : 1;
+  }
+  /// Whether what arrives is added up.
+  bool sumsArrivals() const { return steps.sources == LightSources::Once || generations() > 1; }
 };
 
 }  // namespace limen::techniques

@@ -8,11 +8,11 @@
 #include "renderer/techniques/global_illumination/voxel_propagation/transport.glsl"
 #include "renderer/voxels/volume.glsl"
 
-// Two fields, of which a step reads one and writes the other. Layer: (field * 3 + channel) * depth + z.
+// Fields, of which a step reads one and writes another. Layer: (field * 3 + channel) * depth + z.
 layout(binding = kPropagateFieldUnit) uniform sampler2DArray fields;
 layout(binding = kPropagateOutImage, FIELD_FORMAT) uniform writeonly image2DArray next;
 layout(binding = kPropagateSourceUnit) uniform sampler2DArray source;
-uniform int from;      // the field to read
+uniform int from, to;  // the fields to read and to write
 uniform bool lasting;  // sources
 
 vec4 reflected(vec4 arriving, vec3 direction, vec3 normal) {
@@ -63,6 +63,11 @@ Wall fetchWall(ivec3 voxel, int channel) {
 }
 // Of a voxel whose face is beside a surface.
 Wall wallBeside(ivec3 voxel, int channel, int face);
+// What comes back of light that moves from an empty voxel to the surface beyond a face.
+vec4 reflectedAt(ivec3 voxel, int channel, int face, vec4 moved) {
+  const Wall wall = wallBeside(voxel, channel, face);
+  return wall.surface.w > 0.0 && moved.x > 0.0 ? wall.albedo * reflected(moved, faceDirection(face), wall.surface.xyz) : vec4(0.0);
+}
 // What a voxel that holds a surface lets through.
 float passingShare(ivec3 voxel) { return 1.0 - texelFetch(volumeNormal, voxel, 0).w; }
 
@@ -85,9 +90,9 @@ vec4 afterStep(ivec3 voxel, int channel, uint cell, vec4 own, vec4 beside[6], ve
     // What has entered a transparent surface is not held up within it.
     if (besideLight(cell, face)) sum += solid ? moved[face] : leaving(beside[face], face ^ 1);
 #endif
-    if (solid) continue;
-    const Wall wall = wallBeside(voxel, channel, face);
-    if (wall.surface.w > 0.0 && moved[face].x > 0.0) sum += wall.albedo * reflected(moved[face], faceDirection(face), wall.surface.xyz);
+#ifndef ABSORBS  // surfaces what reaches them
+    if (!solid) sum += reflectedAt(voxel, channel, face, moved[face]);
+#endif
   }
   return holdsLight(cell) ? lightKept(keptOf(sum)) : vec4(0.0);
 }

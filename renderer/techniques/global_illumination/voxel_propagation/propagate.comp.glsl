@@ -18,7 +18,7 @@ void main() {
 #ifdef STOPS
   if (step_ > 0 && uintBitsToFloat(changes[step_ - 1]) <= stopBelow) return;
 #endif
-  const int channel = at.z / gridSizeZ, read = (3 * from + channel) * gridSizeZ, write = 3 * (1 - from) * gridSizeZ;
+  const int channel = at.z / gridSizeZ, read = (3 * from + channel) * gridSizeZ, write = 3 * to * gridSizeZ;
   const ivec3 voxel = ivec3(at.xy, at.z - channel * gridSizeZ), last = gridSize() - 1;
   const uint cell = texelFetch(lightCells, voxel, 0).x;
   const vec4 own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0), lit = texelFetch(source, at, 0);

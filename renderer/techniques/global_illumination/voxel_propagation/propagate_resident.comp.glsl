@@ -71,7 +71,7 @@ void main() {
     own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0);
     lit = texelFetch(source, ivec3(voxel.xy, channel * gridSizeZ + voxel.z), 0);
     for (int face = 0; face < 6; ++face) {
-      if (!besideSurface(cell, face)) continue;
+      if (!besideSurface(cell, face) || holdsSurface(cell)) continue;
       const Wall wall = fetchWall(voxel + ivec3(faceDirection(face)), channel);
       walls[face] = uvec3(packHalf2x16(wall.surface.xy), packHalf2x16(wall.surface.zw), packHalf2x16(vec2(wall.albedo, 0.0)));
     }
@@ -114,5 +114,5 @@ void main() {
     barrier();
     if (lost != 0u) return;
   }
-  if (there) imageStore(next, ivec3(voxel.xy, 3 * (1 - from) * gridSizeZ + channel * gridSizeZ + voxel.z), own);
+  if (there) imageStore(next, ivec3(voxel.xy, (3 * to + channel) * gridSizeZ + voxel.z), own);
 }

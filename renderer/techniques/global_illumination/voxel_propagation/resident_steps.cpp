@@ -47,10 +47,10 @@ ResidentSteps::ResidentSteps(const gl::Program& program, glm::ivec3 gridSize, gl
   lights_.clearUint(0);
 }
 
-void ResidentSteps::run(int from, int steps) { dispatch(from, steps, kPollsOfFrame); }
+void ResidentSteps::run(int from, int to, int steps) { dispatch(from, to, steps, kPollsOfFrame); }
 
 bool ResidentSteps::works() {
-  for (int i = 0; i < 4; ++i) dispatch(0, kStepsOfTrial, kPollsOfTrial);
+  for (int i = 0; i < 4; ++i) dispatch(0, 1, kStepsOfTrial, kPollsOfTrial);
   return !stuck();
 }
 
@@ -59,8 +59,9 @@ bool ResidentSteps::stuck() const {
   return signals_.read<uint32_t>(0, 1)[0] != 0;
 }
 
-void ResidentSteps::dispatch(int from, int steps, uint32_t mostPolls) {
+void ResidentSteps::dispatch(int from, int to, int steps, uint32_t mostPolls) {
   program_.set("from", from);
+  program_.set("to", to);
   program_.set("steps", steps);
   program_.set("firstSignal", firstSignal_);
   program_.set("mostPolls", mostPolls);

@@ -27,9 +27,8 @@ class ResidentSteps {
 
   int64_t groups() const { return int64_t{groups_.x} * groups_.y * groups_.z; }
   int64_t bytes() const { return signals_.bytes() + lights_.bytes(); }
-  /// From one field to the other; all but `from` and `steps` is set and bound as for a step. Steps: at least
-  /// 1.
-  void run(int from, int steps);
+  /// From one field to another; all else is set and bound as for a step. Steps: at least 1.
+  void run(int from, int to, int steps);
   /// Some steps of whatever the fields hold, to find out whether groups get stuck. Waits for the GPU.
   bool works();
   /// Whether groups have ever waited in vain. Waits for the GPU.
@@ -38,7 +37,7 @@ class ResidentSteps {
   const gl::Buffer& signals() const { return signals_; }
 
  private:
-  void dispatch(int from, int steps, uint32_t mostPolls);
+  void dispatch(int from, int to, int steps, uint32_t mostPolls);
 
   const gl::Program& program_;
   glm::ivec3 groups_;

@@ -130,6 +130,84 @@ TEST_F(VoxelPropagationLight, AClosedBoxGathersTheGeometricSum) {
     }
 }
 
+/// GI-09. With a limit of n the sum ends after n terms, 1 + a + ... + a^(n - 1), whether light is put in once
+/// and gathered over all steps, or lasts until what arrives at each step is all that is put in at one.
+TEST_F(VoxelPropagationLight, ALimitOnBouncesEndsTheSum) {
+  const double albedo = 0.5;
+  const scene::Scene box = makeScene("global_illumination/closed_box", {{"albedo", albedo}});
+  for (const LightSources sources : {LightSources::Once, LightSources::Steady})
+    for (const int most : {1, 2, 4}) {
+      LightGridSettings settings;
+      settings.resolution = 12, settings.iterations = 128, settings.bounces = LimitedBounces{most};
+      settings.steps.sources = sources, settings.format = FieldFormat::Single;
+      const frame::GpuScene gpuScene(box);
+      frame::Frame frame(context(), box, gpuScene, {8, 8});
+      LightGrid grid(frame, settings, {});
+      frame.begin();
+      grid.start(frame);
+      const double before = grid.flux().g;
+      grid.update(frame);
+      const voxels::VoxelGrid& voxels = grid.volume().grid();
+      double arrived = 0.0, expected = 0.0;
+      for (int layer = 0; layer < 6 * voxels.resolution.z; ++layer) {
+        const Image one = grid.arrived().readLayer(layer);
+        for (size_t i = 0; i < one.pixels(); ++i) arrived += one.data[4 * i + 1];
+      }
+      for (int bounce = 0; bounce < most; ++bounce) expected += std::pow(albedo, bounce);
+      // What is still on its way after as many steps as ten crossings: none.
+      EXPECT_NEAR(arrived * voxels.voxelSize * voxels.voxelSize, expected * before, 4e-3 * before)
+          << most << ", " << limen::toText(sources);
+      frame.end();
+    }
+}
+
+/// GI-09. What each bounce adds, the difference of two limits, is what it adds to paths, with less than
+/// three fifths of the error of adding nothing; light of all bounces is farther from paths of one and two.
+TEST_F(VoxelPropagationLight, EachBounceAddsWhatItAddsToPaths) {
+  for (const char* name : {"global_illumination/two_rooms", "global_illumination/room"}) {
+    const scene::Scene scene = makeScene(name);
+    const Image all = indirect(scene, {}).product, nothing(32, 24, 4);
+    Image limitedBefore = nothing, pathsBefore = nothing;
+    const auto difference = [](Image a, const Image& b) {
+      for (size_t i = 0; i < a.data.size(); ++i) a.data[i] -= b.data[i];
+      return a;
+    };
+    for (int64_t most = 1; most <= 3; ++most) {
+      const Image limited =
+          indirect(scene, {{"bounces", std::string("limited")}, {"bounces.most", most}}).product;
+      const Image paths =
+          render(scene, "global_illumination/path_reference",
+                 {{"paths", int64_t{64}}, {"bounces", most}, {"light", std::string("indirect")}}, {32, 24})
+              .product;
+      const Image added = difference(paths, pathsBefore);
+      EXPECT_LT(error(difference(limited, limitedBefore), added), 0.6 * error(nothing, added))
+          << name << ", " << most;
+      if (most < 3) {
+        EXPECT_LT(error(limited, paths), error(all, paths)) << name << ", " << most;
+      }
+      limitedBefore = limited, pathsBefore = paths;
+    }
+  }
+}
+
+/// Where light goes on from frame to frame, each bounce goes on in fields of its own, and ends as all made
+/// at once.
+TEST_F(VoxelPropagationLight, BouncesGoOnFromFrameToFrame) {
+  const scene::Scene scene = makeScene("global_illumination/room");
+  const Given base = {{"resolution", int64_t{12}},
+                      {"format", std::string("32f")},
+                      {"bounces", std::string("limited")},
+                      {"bounces.most", int64_t{3}}};
+  const auto with = [&](const char* update, int64_t iterations) {
+    Given given = base;
+    given["update"] = std::string(update), given["iterations"] = iterations;
+    return given;
+  };
+  const Image whole = pictures(scene, with("all", 128), 1)[0], nothing(32, 24, 4);
+  const Image last = pictures(scene, with("continued", 16), 24).back();
+  EXPECT_LT(error(last, whole), 1e-3 * error(whole, nothing));
+}
+
 /// GI-05. Nothing is lit behind a closed wall, and half the light of a transparent wall passes a
 /// half-transparent one: what crosses it three times is reflected twice between, which leaves a share of
 /// albedo^2 = 1 % at most. Whether one layer of voxels holds the wall or two.
