@@ -41,6 +41,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
     : settings_(settings),
       lighting_(lighting),
       bounds_(frame.scene().bounds()),
+      rays_(frame),
       counts_(sizeof(InjectCounts), nullptr),
       layerSums_(4, nullptr),
       changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
@@ -136,6 +137,7 @@ int64_t LightGrid::bytes() const {
 
 void LightGrid::update(frame::Frame& frame) {
   const int64_t number = frames_++;
+  rays_.build(frame);
   const bool anew = std::holds_alternative<UpdateAll>(settings_.update) ||
                     std::holds_alternative<UpdateEvery>(settings_.update);
   if (const auto* every = std::get_if<UpdateEvery>(&settings_.update); every && number % every->frames != 0)
@@ -194,6 +196,7 @@ void LightGrid::reflect(bool adds, bool first, bool seeds, int to) {
 }
 
 void LightGrid::start(frame::Frame& frame) {
+  rays_.build(frame);
   place(frame);
   voxelize(frame);
   inject(frame, -1, true);
@@ -228,7 +231,7 @@ void LightGrid::voxelize(frame::Frame& frame) {
 
 void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
   counts_.clearUint(0);
-  configureSurfaceLight(*programs_->inject, frame, lighting_);
+  configureSurfaceLight(*programs_->inject, frame, lighting_, rays_.tree());
   configureBounds(*programs_->inject);
   programs_->inject->set("sampleCount", sampleCount_);
   programs_->inject->set("shift", static_cast<float>(settings_.injection.shift));

@@ -11,6 +11,7 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/volume_texture.h"
+#include "renderer/techniques/global_illumination/moved_rays.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_programs.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/resident_steps.h"
@@ -38,6 +39,8 @@ class LightGrid {
   const voxels::Volume& volume() const { return *volume_; }
   /// Words of light_cells.glsl.
   const gl::Texture& lightCells() const { return *lightCells_; }
+  /// That the frame's rays are traced through; null: the one that the scene keeps.
+  const ray_tracing::RayTree* tree() const { return rays_.tree(); }
   int64_t bytes() const;
 
   /// Steps apart, for counting and tests: voxels and sources of the frame, all made anew; one step of light
@@ -79,6 +82,7 @@ class LightGrid {
   LightGridSettings settings_;
   frame::SurfaceLightSettings lighting_;
   scene::Bounds bounds_;
+  MovedRays rays_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   std::optional<LightPrograms> programs_;

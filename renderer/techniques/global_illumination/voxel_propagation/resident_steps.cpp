@@ -12,7 +12,7 @@ namespace limen::techniques {
 namespace {
 
 /// Of a neighbour's signal; one takes some .5 us. A trial that gets stuck lasts as long.
-constexpr uint32_t kPollsOfTrial = 1U << 16U, kPollsOfFrame = 1U << 20U;
+constexpr uint32_t kPollsOfTrial = 1U << 14U, kPollsOfFrame = 1U << 18U;
 constexpr int kStepsOfTrial = 8;
 constexpr int kMostInvocations = 768;  // of a group, so that each may have 80 registers
 

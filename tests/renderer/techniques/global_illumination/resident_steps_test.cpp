@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Steps of light in one dispatch beside one dispatch each.
+#include <cstdio>
 #include <vector>
 
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid.h"
@@ -52,7 +53,7 @@ TEST_F(ResidentLightSteps, AreStepsOneByOne) {
   for (const scene::Scene& scene : rooms)
     for (const int resolution : {6, 14, 32})
       for (const FieldFormat format : {FieldFormat::Half, FieldFormat::Single})
-        for (const int iterations : {1, 2, 7, 64}) {
+        for (const int iterations : {2, 7, 64}) {
           LightGridSettings settings;
           settings.resolution = resolution, settings.format = format, settings.iterations = iterations;
           if (iterations == 7) settings.update = UpdateOn{};
@@ -61,6 +62,7 @@ TEST_F(ResidentLightSteps, AreStepsOneByOne) {
           const Light each = lightOf(scene, settings, StepDispatch::Each);
           EXPECT_FALSE(each.atOnce);
           ++compared;
+          std::printf("%d %d %d\n", resolution, int(format), iterations), std::fflush(stdout);
           size_t different = 0;
           for (size_t i = 0; i < each.field.size(); ++i) different += once.field[i] != each.field[i];
           EXPECT_EQ(different, 0U) << "of " << each.field.size() << ", " << resolution << " voxels, "
