@@ -4,7 +4,6 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "experiments/base/error.h"
@@ -100,7 +99,7 @@ void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
   const glm::ivec3 groups = (size + tile - 1) / tile;
   const std::string what = std::to_string(groups.x * groups.y * groups.z) + " groups";
   std::string reason;
-  if (!std::getenv("LIMEN_TRY") && frame.context().device().software && groups != glm::ivec3(1)) {
+  if (frame.context().device().software && groups != glm::ivec3(1)) {
     reason = "a software renderer does not run " + what + " at a time";
   } else {
     residentProgram_ = &programs_->residentSteps(frame, tile);

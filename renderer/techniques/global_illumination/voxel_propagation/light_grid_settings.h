@@ -65,7 +65,7 @@ constexpr EnumNames<FieldFormat, 2> enumNames(FieldFormat) {
 
 struct InjectionSettings {
   double shift = 0.5;
-  int samplesAside = 2;
+  int samplesAside = 4;
   static const SettingsTable<InjectionSettings>& table();
 };
 

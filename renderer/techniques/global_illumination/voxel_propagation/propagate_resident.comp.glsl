@@ -19,10 +19,30 @@ uniform int steps;        // at least 1
 uniform uint firstSignal;  // of step 0
 uniform uint mostPolls;    // of a neighbour's signal, after which a group is stuck
 
-const ivec3 kTile = ivec3(TILE_X, TILE_Y, TILE_Z);
-const int kTileVoxels = TILE_X * TILE_Y * TILE_Z;
-shared LightKept lights[2][3 * kTileVoxels];  // of two steps in turn
+const ivec3 kTile = ivec3(TILE_X, TILE_Y, TILE_Z), kShell = kTile + 2;
+const int kTileVoxels = TILE_X * TILE_Y * TILE_Z, kShellVoxels = (TILE_X + 2) * (TILE_Y + 2) * (TILE_Z + 2);
+// Of a group's voxels and those beside them; at the grid's own sides nothing is read of what is beyond.
+shared LightKept lights[3 * kShellVoxels];
 shared uint lost;
+
+const ivec3 kSideSizes = ivec3(TILE_Y * TILE_Z, TILE_X * TILE_Z, TILE_X * TILE_Y);  // voxels beyond a face of each axis
+const int kBeyond = 2 * (kSideSizes.x + kSideSizes.y + kSideSizes.z), kInvocations = 3 * kTileVoxels;
+
+int inShell(ivec3 local, int channel) {
+  return local.x + 1 + kShell.x * (local.y + 1 + kShell.y * (local.z + 1)) + channel * kShellVoxels;
+}
+
+// The i-th of the voxels beyond the tile's faces.
+ivec3 beyondTile(int i, out int side) {
+  const int axis = i < 2 * kSideSizes.x ? 0 : i < 2 * (kSideSizes.x + kSideSizes.y) ? 1 : 2;
+  i -= axis == 0 ? 0 : axis == 1 ? 2 * kSideSizes.x : 2 * (kSideSizes.x + kSideSizes.y);
+  const bool low = i >= kSideSizes[axis];
+  i -= low ? kSideSizes[axis] : 0;
+  side = 2 * axis + (low ? 1 : 0);
+  const int out_ = low ? -1 : kTile[axis], width = axis == 0 ? TILE_Y : TILE_X;
+  const int u = i % width, v = i / width;
+  return axis == 0 ? ivec3(out_, u, v) : axis == 1 ? ivec3(u, out_, v) : ivec3(u, v, out_);
+}
 
 // A voxel's walls, kept for all steps: halves hold what the volume does.
 uvec3 walls[6];
@@ -38,12 +58,10 @@ uint groupAt(ivec3 tile) {
 
 // Waits for the group beyond one of the six sides.
 void awaitNeighbour(ivec3 tile, int side, uint signal) {
-  const ivec3 beyond = tile + ivec3(faceDirection(side));
-  if (any(lessThan(beyond, ivec3(0))) || any(greaterThanEqual(beyond, ivec3(gl_NumWorkGroups)))) return;
-  const uint word = kSignalStride * groupAt(beyond) + 1u;
+  const uint word = kSignalStride * groupAt(tile + ivec3(faceDirection(side))) + 1u;
   bool done = false;
   for (uint poll = 0u; poll < mostPolls && !done; ++poll) {
-    done = int(atomicOr(signals[word], 0u) - signal) >= 0;
+    done = int(signals[word] - signal) >= 0;
     if (!done && (poll & 63u) == 63u && stuck != 0u) break;
   }
   if (!done) {
@@ -53,66 +71,68 @@ void awaitNeighbour(ivec3 tile, int side, uint signal) {
 }
 
 void main() {
-  const ivec3 tile = ivec3(gl_WorkGroupID);
+  const ivec3 tile = ivec3(gl_WorkGroupID), size = gridSize();
   const int channel = int(gl_LocalInvocationID.z) / TILE_Z, index = int(gl_LocalInvocationIndex);
-  const ivec3 local = ivec3(gl_LocalInvocationID.xy, int(gl_LocalInvocationID.z) - channel * TILE_Z), size = gridSize();
-  const ivec3 voxel = kTile * tile + local, strides = ivec3(1, size.x, size.x * size.y), localStrides = ivec3(1, TILE_X, TILE_X * TILE_Y);
-  const int perHalf = 3 * size.x * size.y * size.z;
-  const int place = voxel.x + size.x * (voxel.y + size.y * (voxel.z + channel * size.z));
-  const int read = (3 * from + channel) * gridSizeZ;
+  const ivec3 local = ivec3(gl_LocalInvocationID.xy, int(gl_LocalInvocationID.z) - channel * TILE_Z), voxel = kTile * tile + local;
+  const int read = 3 * from * size.z, perHalf = 3 * size.x * size.y * size.z, place = inShell(local, channel);
+  const int ownOutside = voxel.x + size.x * (voxel.y + size.y * (voxel.z + channel * size.z));
   const bool there = isInGrid(voxel);
-  const bool atSide = any(equal(local, ivec3(0))) || any(equal(local, kTile - 1));
+  const bool atSide = there && (any(equal(local, ivec3(0))) || any(equal(local, kTile - 1)));
   if (index == 0) lost = 0u;
   uint cell = 0u;
   vec4 own = vec4(0.0), lit = vec4(0.0);
   for (int face = 0; face < 6; ++face) walls[face] = uvec3(0u);
   if (there) {
     cell = texelFetch(lightCells, voxel, 0).x;
-    own = texelFetch(fields, ivec3(voxel.xy, read + voxel.z), 0);
-    lit = texelFetch(source, ivec3(voxel.xy, channel * gridSizeZ + voxel.z), 0);
+    own = texelFetch(fields, ivec3(voxel.xy, read + channel * size.z + voxel.z), 0);
+    lit = texelFetch(source, ivec3(voxel.xy, channel * size.z + voxel.z), 0);
     for (int face = 0; face < 6; ++face) {
       if (!besideSurface(cell, face) || holdsSurface(cell)) continue;
       const Wall wall = fetchWall(voxel + ivec3(faceDirection(face)), channel);
       walls[face] = uvec3(packHalf2x16(wall.surface.xy), packHalf2x16(wall.surface.zw), packHalf2x16(vec2(wall.albedo, 0.0)));
     }
   }
-  lights[0][index] = keptOf(own);
+  lights[place] = keptOf(own);
+  for (int i = index; i < 3 * kBeyond; i += kInvocations) {
+    int side;
+    const int of = i / kBeyond;
+    const ivec3 beyond = beyondTile(i - of * kBeyond, side), at = kTile * tile + beyond;
+    if (isInGrid(at)) lights[inShell(beyond, of)] = keptOf(texelFetch(fields, ivec3(at.xy, read + of * size.z + at.z), 0));
+  }
   barrier();
-  for (int s = 0;; ++s) {
+  for (int s = 1;; ++s) {
     if (holdsLight(cell)) {
       vec4 beside[6];
       for (int face = 0; face < 6; ++face) {
-        const int axis = face >> 1, way = (face & 1) == 0 ? 1 : -1;
-        const int inTile = local[axis] + way, inGrid = voxel[axis] + way;
-        if (inTile >= 0 && inTile < kTile[axis]) {
-          beside[face] = lightKept(lights[s & 1][index + way * localStrides[axis]]);
-        } else if (inGrid < 0 || inGrid >= size[axis]) {
-          beside[face] = own;
-        } else if (s == 0) {
-          const ivec3 beyond = voxel + ivec3(faceDirection(face));
-          beside[face] = texelFetch(fields, ivec3(beyond.xy, read + beyond.z), 0);
-        } else {
-          beside[face] = lightKept(outside[(s & 1) * perHalf + place + way * strides[axis]]);
-        }
+        const ivec3 towards = ivec3(faceDirection(face));
+        beside[face] = lightKept(lights[place + towards.x + kShell.x * (towards.y + kShell.y * towards.z)]);
       }
       own = afterStep(voxel, channel, cell, own, beside, lit);
     } else {
       own = vec4(0.0);
     }
-    if (s + 1 == steps) break;
+    if (s == steps) break;
     const LightKept kept = keptOf(own);
-    lights[s + 1 & 1][index] = kept;
-    if (there && atSide) outside[(s + 1 & 1) * perHalf + place] = kept;
-    memoryBarrierBuffer();
-    barrier();
-    const uint signal = firstSignal + uint(s) + 1u;
-    if (index == 0) signals[kSignalStride * groupAt(tile) + 1u] = signal;
-    if (index < 6) {
-      awaitNeighbour(tile, index, signal);
+    const int half_ = (s & 1) * perHalf;
+    if (atSide) {
+      outside[half_ + ownOutside] = kept;
       memoryBarrierBuffer();
+    }
+    barrier();
+    const uint signal = firstSignal + uint(s);
+    if (index == 0) signals[kSignalStride * groupAt(tile) + 1u] = signal;
+    lights[place] = kept;
+    for (int i = index; i < 3 * kBeyond; i += kInvocations) {
+      int side;
+      const int of = i / kBeyond;
+      const ivec3 beyond = beyondTile(i - of * kBeyond, side), at = kTile * tile + beyond;
+      if (!isInGrid(at)) continue;
+      awaitNeighbour(tile, side, signal);
+      memoryBarrierBuffer();
+      lights[inShell(beyond, of)] = outside[half_ + at.x + size.x * (at.y + size.y * (at.z + of * size.z))];
     }
     barrier();
     if (lost != 0u) return;
   }
-  if (there) imageStore(next, ivec3(voxel.xy, (3 * to + channel) * gridSizeZ + voxel.z), own);
+  if (there) imageStore(next, ivec3(voxel.xy, (3 * to + channel) * size.z + voxel.z), own);
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
+
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 
 namespace limen::techniques {

@@ -35,8 +35,9 @@ namespace {
 
 constexpr const char* kVoxelReconstructPass = "global_illumination/reconstruct";
 
-/// Of a point that has no light around it, as in crevices lower than a voxel.
-constexpr int kWidestDefault = 3;
+/// Of a point that has no light around it, as in crevices lower than a voxel. None by default: light from
+/// farther away is too bright there, by more than none is too dark.
+constexpr int kWidestDefault = 0;
 template <class S>
 SettingsTable<S> widestTable() {
   return {{&S::widest,
