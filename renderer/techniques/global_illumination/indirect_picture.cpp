@@ -30,10 +30,11 @@ IndirectPicture::IndirectPicture(frame::Frame& frame, const std::string& shader,
 }
 
 void IndirectPicture::render(frame::Frame& frame,
-                             const std::function<void(const gl::Program&)>& configure) const {
+                             const std::function<void(const gl::Program&)>& configure,
+                             const ray_tracing::RayTree* tree) const {
   const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
   const auto scope = frame.passes().open(pass_);
-  configureSurfaceLight(program_, frame, lighting_);
+  configureSurfaceLight(program_, frame, lighting_, tree);
   configure(program_);
   program_.set("withDirect", lighting_.light != frame::LightPart::Indirect ? 1 : 0);
   program_.set("withIndirect", lighting_.light != frame::LightPart::Direct ? 1 : 0);

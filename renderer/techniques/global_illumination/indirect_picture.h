@@ -8,6 +8,10 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 
+namespace limen::ray_tracing {
+class RayTree;
+}
+
 namespace limen::techniques {
 
 /// The picture of a technique whose shader includes indirect_picture.glsl: what each pixel sees, lit by the
@@ -18,8 +22,9 @@ class IndirectPicture {
   IndirectPicture(frame::Frame& frame, const std::string& shader, const gl::ShaderDefines& defines,
                   const frame::SurfaceLightSettings& lighting, const char* pass);
 
-  /// `configure` sets what indirectLight() needs.
-  void render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure) const;
+  /// `configure` sets what indirectLight() needs; `tree`: see configureSurfaceLight().
+  void render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure,
+              const ray_tracing::RayTree* tree = nullptr) const;
   const gl::Texture& texture() const { return picture_; }
 
  private:

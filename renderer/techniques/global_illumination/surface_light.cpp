@@ -16,8 +16,8 @@ gl::ShaderDefines surfaceLightDefines(const frame::SurfaceLightSettings& setting
 }
 
 void configureSurfaceLight(const gl::Program& program, frame::Frame& frame,
-                           const frame::SurfaceLightSettings& settings) {
-  frame::configureMirrorTrace(program, frame, settings.lamp());
+                           const frame::SurfaceLightSettings& settings, const ray_tracing::RayTree* tree) {
+  frame::configureMirrorTrace(program, frame, settings.lamp(), tree);
   program.set("sizePx", frame.sizePx());
 }
 

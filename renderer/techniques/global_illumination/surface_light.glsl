@@ -42,13 +42,14 @@ vec3 lampShare(SurfacePoint point) {
 #endif
 }
 
-// Radiance of a white surface that the lamp alone lights.
-vec3 lampRadiance(SurfacePoint point) {
+// Radiance of a white surface that the lamp alone lights, if nothing is between.
+vec3 unblockedLampRadiance(SurfacePoint point) {
 #ifdef LIT
-  return diffuse * max(dot(point.flatNormal, towardsLight(point.position, point.flatNormal)), 0.0) * lampShare(point);
+  return vec3(diffuse * max(dot(point.flatNormal, towardsLight(point.position, point.flatNormal)), 0.0));
 #else
   return vec3(0.0);
 #endif
 }
+vec3 lampRadiance(SurfacePoint point) { return unblockedLampRadiance(point) * lampShare(point); }
 
 vec3 reflectance(SurfacePoint point) { return patterned(materialOf(point), point.position); }

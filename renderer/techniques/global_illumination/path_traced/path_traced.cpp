@@ -13,6 +13,7 @@
 #include "renderer/frame/mirror_trace.h"
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
+#include "renderer/techniques/global_illumination/moved_rays.h"
 #include "renderer/techniques/global_illumination/surface_light.h"
 #include "renderer/techniques/technique.h"
 
@@ -33,16 +34,18 @@ class PathTraced : public Technique {
     mean_ = &programs.compute("renderer/techniques/global_illumination/path_traced/path_mean.comp.glsl");
     sums_.emplace(gl::Format::RGBA32F, frame.sizePx());
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
-    frame.passes().setBytesHeld(kPathsPass, sums_->bytes() + frame.gpuScene().rays(frame.context()).bytes());
+    rays_.emplace(frame);
+    frame.passes().setBytesHeld(kPathsPass, sums_->bytes() + (rays_->tree() ? rays_->bytes() : frame.gpuScene().rays(frame.context()).bytes()));
     frame.passes().setBytesHeld(kMeanPass, picture_->bytes());
   }
 
   void render(frame::Frame& frame) override {
     const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
+    rays_->build(frame);
     {
       const auto scope = frame.passes().open(kPathsPass);
       sums_->clear(glm::vec4(0.0F));
-      configureSurfaceLight(*trace_, frame, settings_.surfaces);
+      configureSurfaceLight(*trace_, frame, settings_.surfaces, rays_->tree());
       trace_->set("bounces", settings_.bounces);
       trace_->set("seed", static_cast<uint32_t>(settings_.seed));
       trace_->set("withDirect", settings_.surfaces.light != frame::LightPart::Indirect ? 1 : 0);
@@ -82,6 +85,7 @@ class PathTraced : public Technique {
  private:
   Settings settings_;
   const gl::Program *trace_ = nullptr, *mean_ = nullptr;
+  std::optional<MovedRays> rays_;
   std::optional<gl::Texture> sums_, picture_;
 };
 
@@ -92,6 +96,7 @@ const RegisteredTechnique<PathTraced> kPathTracedRegistered{
      .source = "Kajiya 1986; Gaitatzes 2012, section 5.6 (BL-03)",
      .product = ProductKind::Colour,
      .reference = true,
+     .followsMotion = true,
      .counters = {{"paths_per_px", "Paths from each pixel's point", "", Direction::LowerIsBetter},
                   {"standard_error",
                    "Standard error of pixels' channel means, root mean square over the picture", "",

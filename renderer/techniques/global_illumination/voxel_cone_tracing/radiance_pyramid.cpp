@@ -75,7 +75,7 @@ const SettingsTable<RadiancePyramidSettings>& RadiancePyramidSettings::table() {
 
 RadiancePyramid::RadiancePyramid(frame::Frame& frame, const RadiancePyramidSettings& settings,
                                  const frame::SurfaceLightSettings& lighting)
-    : settings_(settings), lighting_(lighting) {
+    : settings_(settings), lighting_(lighting), rays_(frame) {
   gl::Context& context = frame.context();
   gl::ProgramCache& programs = context.programs();
   const int levels = levelsOf(settings.resolution);
@@ -134,6 +134,7 @@ void RadiancePyramid::makeLevels() const {
 }
 
 void RadiancePyramid::make(frame::Frame& frame) {
+  rays_.build(frame);
   {
     const auto scope = frame.passes().open("global_illumination/voxelize");
     voxelizer_->run(frame, *volume_);
@@ -141,7 +142,7 @@ void RadiancePyramid::make(frame::Frame& frame) {
   {
     const auto scope = frame.passes().open("global_illumination/inject");
     sums_->clearUint(0);
-    configureSurfaceLight(*inject_, frame, lighting_);
+    configureSurfaceLight(*inject_, frame, lighting_, rays_.tree());
     volume_->configure(*inject_);
     inject_->set("sampleCount", sampleCount_);
     samples_->bindTexture(kInjectSamplesUnit);

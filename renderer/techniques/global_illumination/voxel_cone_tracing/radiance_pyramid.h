@@ -9,6 +9,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/volume_texture.h"
+#include "renderer/techniques/global_illumination/moved_rays.h"
 #include "renderer/voxels/voxelizer.h"
 
 namespace limen::techniques {
@@ -37,6 +38,8 @@ class RadiancePyramid {
   gl::ShaderDefines defines() const { return volume_->defines(); }
   void configure(const gl::Program& program) const;
   const voxels::Volume& volume() const { return *volume_; }
+  /// That the frame's rays are traced through; null: the one that the scene keeps.
+  const ray_tracing::RayTree* tree() const { return rays_.tree(); }
   int64_t bytes() const;
   uint32_t samples() const { return sampleCount_; }
 
@@ -45,6 +48,7 @@ class RadiancePyramid {
 
   RadiancePyramidSettings settings_;
   frame::SurfaceLightSettings lighting_;
+  MovedRays rays_;
   std::optional<voxels::Volume> volume_;
   std::optional<voxels::Voxelizer> voxelizer_;
   const gl::Program *inject_ = nullptr, *base_ = nullptr, *bounce_ = nullptr, *level_ = nullptr;

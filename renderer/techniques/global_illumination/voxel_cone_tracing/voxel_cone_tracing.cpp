@@ -37,7 +37,7 @@ class VoxelConeTracing : public Technique {
 
   void render(frame::Frame& frame) override {
     pyramid_->make(frame);
-    picture_->render(frame, [&](const gl::Program& program) { pyramid_->configure(program); });
+    picture_->render(frame, [&](const gl::Program& program) { pyramid_->configure(program); }, pyramid_->tree());
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
@@ -54,10 +54,11 @@ class VoxelConeTracing : public Technique {
 
 const RegisteredTechnique<VoxelConeTracing> kVoxelConeTracingRegistered{
     {.name = "global_illumination/voxel_cone_tracing",
-     .version = 1,
+     .version = 2,
      .summary = "Light gathered by six cones a point through a pyramid of voxels",
      .source = "Crassin et al. 2011; a comparator for Gaitatzes 2012, chapter 5",
      .product = ProductKind::Colour,
+     .followsMotion = true,
      .counters = {
          {"surface_samples", "Points of surfaces that light is put in from", "", Direction::LowerIsBetter},
          {"pyramid_bytes", "Memory of the voxels and their pyramid", "B", Direction::LowerIsBetter}}}};

@@ -10,6 +10,9 @@ layout(binding = kPropagateFieldUnit) uniform sampler2DArray fields;  // see pro
 layout(binding = kArriveFacesImage, ARRIVED_FORMAT) uniform ARRIVED_ACCESS image2DArray arrived;  // layer: face * depth + z
 uniform int from;
 uniform bool first;
+#ifdef RESIDENT
+layout(std430, binding = kStepSignalsBuffer) readonly buffer Signals { uint stuck; };  // see propagate_resident.comp.glsl
+#endif
 
 void main() {
   const ivec3 to = ivec3(gl_GlobalInvocationID);  // z: face and layer
@@ -25,6 +28,9 @@ void main() {
       const int layer = (3 * from + channel) * gridSizeZ + beyond.z;
       light[channel] = max(leaving(texelFetch(fields, ivec3(beyond.xy, layer), 0), face ^ 1).x, 0.0);
     }
+#ifdef RESIDENT
+    if (stuck != 0u) light.rgb = vec3(uintBitsToFloat(0x7fc00000u));
+#endif
 #ifdef SUMMED
     if (!first) light.rgb += imageLoad(arrived, to).rgb;
 #endif

@@ -4,9 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "experiments/base/error.h"
 #include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 #include "renderer/techniques/global_illumination/light_box.h"
@@ -21,12 +21,7 @@ namespace {
 constexpr const char* kVoxelizePass = "global_illumination/voxelize";
 constexpr const char* kInjectPass = "global_illumination/inject";
 constexpr const char* kPropagatePass = "global_illumination/propagate";
-/// More repeat work around each group; software renderers are only slowed down by that.
-constexpr int kStepsTogetherOnGpu = 1;
-
 constexpr const char* kArrivePass = "global_illumination/arrive";
-
-const std::string kLightGridFolder = "renderer/techniques/global_illumination/voxel_propagation/";
 
 voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& settings) {
   if (const auto* box = std::get_if<BoxAroundCamera>(&settings.box)) {
@@ -38,15 +33,6 @@ voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& set
   return lightBox(frame.scene(), settings.resolution);
 }
 
-/// Harmonics of a cone as transport.glsl takes them.
-void setCone(const gl::Program& program, double halfAngleDeg, double scale) {
-  const double cosine = std::cos(glm::radians(halfAngleDeg));
-  program.set("coneShare", static_cast<float>(0.5 * (1.0 - cosine)));
-  program.set("coneSlope", static_cast<float>(0.75 * (1.0 - cosine * cosine)));
-  program.set("coneDirection", static_cast<float>(0.5 * (1.0 + cosine)));
-  program.set("coneScale", static_cast<float>(scale));
-}
-
 }  // namespace
 
 LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
@@ -54,6 +40,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
     : settings_(settings),
       lighting_(lighting),
       bounds_(frame.scene().bounds()),
+      rays_(frame),
       counts_(sizeof(InjectCounts), nullptr),
       layerSums_(4, nullptr),
       changes_(int64_t{4} * std::max(settings.iterations, 1), nullptr) {
@@ -61,11 +48,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   volume_.emplace(context, gridOf(frame, settings), frame.gpuScene().anchor(),
                   voxels::VolumeAttributes{true, true, gl::Format::RGBA16F});
   voxelizer_.emplace(frame, settings.coverage, *volume_);
-  if (settings.steps.sources == LightSources::Steady && settings.steps.stopBelow == 0.0)
-    together_ = settings.steps.together > 0 ? settings.steps.together
-                : context.device().software ? 1
-                                            : kStepsTogetherOnGpu;
-  compile(frame);
+  programs_.emplace(frame, settings, lighting, *volume_);
   const voxels::VoxelGrid& grid = volume_->grid();
   const glm::ivec3 size = grid.resolution;
   const double h = grid.voxelSize;
@@ -78,10 +61,15 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));
   const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
   source_.emplace(format, glm::ivec2(size), 1, 3 * size.z);
-  fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z);
+  const bool continued = std::holds_alternative<UpdateOn>(settings.update) ||
+                         std::holds_alternative<UpdateAxes>(settings.update);
+  pairs_ = continued ? settings.generations() : 1;
+  fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z * pairs_);
+  if (settings.generations() > 1)
+    reflected_.emplace(gl::Format::RGBA32F, glm::ivec2(size), 1, 3 * size.z);
   layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
   lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
-  const bool summed = settings.steps.sources == LightSources::Once;
+  const bool summed = settings.sumsArrivals();
   arrived_.emplace(summed ? gl::Format::RGBA32F : format, glm::ivec2(size), 1, 6 * size.z);
   arrived_->clear(glm::vec4(0.0F));
   if (std::holds_alternative<MomentTransport>(settings.transport)) {
@@ -93,95 +81,125 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
       shares_.emplace(gl::Format::RGBA32F, sides, 1);
     shares_->write(kTable);
   }
+  tryStepsAtOnce(frame);
   frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
   frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
-  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes());
+  frame.passes().setBytesHeld(kPropagatePass, fields_->bytes() + (reflected_ ? reflected_->bytes() : 0) +
+                                                   (resident_ ? resident_->bytes() : 0));
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
-void LightGrid::compile(frame::Frame& frame) {
-  gl::ProgramCache& programs = frame.context().programs();
-  gl::ShaderDefines defines = surfaceLightDefines(lighting_, frame);
-  defines.merge(volume_->defines());
-  inject_ = &programs.compute(kLightGridFolder + "inject.comp.glsl", defines);
-  defines = volume_->defines();
-  defines["FIELD_FORMAT"] = settings_.format == FieldFormat::Half ? "rgba16f" : "rgba32f";
-  gl::ShaderDefines seeding = defines;
-  seeding["FIELD_TOO"] = "1";
-  seed_ = &programs.compute(kLightGridFolder + "seed.comp.glsl", seeding);
-  flux_ = &programs.compute(kLightGridFolder + "light_flux.comp.glsl");
-  cells_ = &programs.compute(kLightGridFolder + "light_cells.comp.glsl", defines);
-  for (const char* name : {"MOMENTS", "FACES", "CONES", "COMPONENTS"})
-    defines["TRANSPORT_" + std::string(name)] = std::to_string(std::string(name) == "MOMENTS" ? 0
-                                                               : std::string(name) == "FACES" ? 1
-                                                               : std::string(name) == "CONES" ? 2
-                                                                                              : 3);
-  defines["TRANSPORT"] = std::to_string(settings_.transport.index());
-  const bool summed = settings_.steps.sources == LightSources::Once;
-  gl::ShaderDefines arriving = defines;
-  arriving["ARRIVED_FORMAT"] = summed ? "rgba32f" : defines["FIELD_FORMAT"];
-  arriving["ARRIVED_ACCESS"] = summed ? "" : "writeonly";
-  if (summed) arriving["SUMMED"] = "1";
-  arrive_ = &programs.compute(kLightGridFolder + "arrive.comp.glsl", arriving);
-  defineEnum(defines, "REFLECTION", settings_.reflection);
-  defineEnum(defines, "ALBEDO", settings_.albedo);
-  if (settings_.steps.stopBelow > 0.0) defines["STOPS"] = "1";
-  if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
-  if (settings_.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
-  defines["STEPS_TOGETHER"] = "1";
-  propagate_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  defines["STEPS_TOGETHER"] = std::to_string(together_);
-  propagateTogether_ = &programs.compute(kLightGridFolder + "propagate.comp.glsl", defines);
-  for (const gl::Program* program : {propagate_, propagateTogether_, arrive_}) {
-    if (const auto* cones = std::get_if<ConeTransport>(&settings_.transport)) {
-      const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
-      setCone(*program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
-    } else if (const auto* components = std::get_if<ComponentTransport>(&settings_.transport)) {
-      // So that six neighbours of equal light keep it.
-      setCone(*program, components->halfAngleDeg,
-              1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
+void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
+  const StepDispatch wanted = settings_.steps.dispatch;
+  const bool needed = wanted == StepDispatch::Once;
+  if (wanted == StepDispatch::Each || settings_.iterations < 1 || settings_.steps.stopBelow > 0.0 ||
+      settings_.steps.sources == LightSources::Once)
+    return;
+  const glm::ivec3 size = volume_->grid().resolution, tile = ResidentSteps::tileOf(size);
+  const glm::ivec3 groups = (size + tile - 1) / tile;
+  const std::string what = std::to_string(groups.x * groups.y * groups.z) + " groups";
+  std::string reason;
+  if (frame.context().device().software && groups != glm::ivec3(1)) {
+    reason = "a software renderer does not run " + what + " at a time";
+  } else {
+    residentProgram_ = &programs_->residentSteps(frame, tile);
+    resident_.emplace(*residentProgram_, size, tile, source_->format());
+    lightCells_->clearUint(glm::uvec4(0));
+    fields_->clear(glm::vec4(0.0F));
+    source_->clear(glm::vec4(0.0F));
+    restartSteps(true, *source_);
+    if (!resident_->works()) {
+      resident_.reset();
+      residentProgram_ = nullptr;
+      reason = "the device did not run " + what + " at a time when they were tried";
     }
   }
+  if (resident_) programs_->arrive = &programs_->arriveAfterResident(frame);
+  if (needed && !resident_)
+    throw Error("cannot do all steps of light in one dispatch: " + reason + "; use dispatch: fitting");
+  stepsRemark_ = resident_ ? "Steps of light are one dispatch of " + what + ", which were tried on this device."
+                           : "Steps of light are one dispatch each: " + reason + ".";
+}
+
+void LightGrid::checkSteps() const {
+  if (resident_ && resident_->stuck())
+    throw Error(
+        "groups of a dispatch waited for each other in vain, so that light is missing: another program may "
+        "have used the GPU; run it again, or with steps: {dispatch: each}");
 }
 
 int64_t LightGrid::bytes() const {
   return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + fields_->bytes() +
-         lightCells_->bytes() + arrived_->bytes();
+         lightCells_->bytes() + arrived_->bytes() + (reflected_ ? reflected_->bytes() : 0) +
+         (resident_ ? resident_->bytes() : 0);
 }
 
 void LightGrid::update(frame::Frame& frame) {
   const int64_t number = frames_++;
+  rays_.build(frame);
   const bool anew = std::holds_alternative<UpdateAll>(settings_.update) ||
                     std::holds_alternative<UpdateEvery>(settings_.update);
   if (const auto* every = std::get_if<UpdateEvery>(&settings_.update); every && number % every->frames != 0)
     return;
   const bool moved = place(frame);
   const bool restarts = anew || moved || number == 0;
+  pair_ = 0;
   voxelize(frame);
   {
     const auto scope = frame.passes().open(kInjectPass);
     inject(frame, restarts ? -1 : static_cast<int>(number % 3), restarts);
   }
   const auto scope = frame.passes().open(kPropagatePass);
+  const int generations = settings_.generations(), start = from_;
+  const bool apart = pairs_ > 1, lasting = settings_.steps.sources == LightSources::Steady;
+  for (int generation = 0; generation < generations; ++generation) {
+    const bool more = generation + 1 < generations;
+    restartSteps(lasting, generation == 0 ? *source_ : *reflected_);
+    spread(generation == 0, more);
+    if (!more) break;
+    // Where each bounce has fields of its own, light in them goes on from frame to frame.
+    const int nextPair = apart ? generation + 1 : 0, nextFrom = apart ? start : 1 - from_;
+    reflect(lasting, lasting, restarts || !apart, 2 * nextPair + nextFrom);
+    pair_ = nextPair, from_ = nextFrom;
+  }
+}
+
+void LightGrid::spread(bool first, bool reflects) {
   const bool lasting = settings_.steps.sources == LightSources::Steady;
-  restartSteps(lasting);
-  const int together = together_;
-  if (together > 1)
-    for (int left = settings_.iterations; left > 0; left -= together)
-      propagateTogether(std::min(left, together));
-  else
+  if (resident_) {
+    resident_->run(reading(), writing(), settings_.iterations);
+    from_ = 1 - from_;
+  } else {
     for (int step = 0; step < settings_.iterations; ++step) {
-      if (!lasting) arrive(step == 0);
+      if (!lasting) {
+        arrive(first && step == 0);
+        if (reflects) reflect(true, step == 0, false, 0);
+      }
       propagate();
     }
-  if (lasting || settings_.iterations == 0) arrive(true);
+  }
+  if (lasting || settings_.iterations == 0) arrive(first);
+}
+
+void LightGrid::reflect(bool adds, bool first, bool seeds, int to) {
+  const gl::Program& program = *programs_->reflect;
+  program.set("from", reading());
+  program.set("to", to);
+  program.set("adds", adds ? 1 : 0);
+  program.set("first", first ? 1 : 0);
+  program.set("seeds", seeds ? 1 : 0);
+  reflected_->bindImage(kReflectedImage, gl::Access::ReadWrite);
+  program.use();
+  const glm::ivec3 size = volume_->grid().resolution;
+  dispatchVoxels({size.x, size.y, 3 * size.z});
 }
 
 void LightGrid::start(frame::Frame& frame) {
+  rays_.build(frame);
   place(frame);
   voxelize(frame);
   inject(frame, -1, true);
-  restartSteps(false);
+  restartSteps(false, *source_);
 }
 
 bool LightGrid::place(const frame::Frame& frame) {
@@ -204,18 +222,18 @@ void LightGrid::configureBounds(const gl::Program& program) const {
 void LightGrid::voxelize(frame::Frame& frame) {
   const auto scope = frame.passes().open(kVoxelizePass);
   voxelizer_->run(frame, *volume_);
-  configureBounds(*cells_);
+  configureBounds(*programs_->cells);
   lightCells_->bindImage(kLightCellsImage, gl::Access::Write);
-  cells_->use();
+  programs_->cells->use();
   dispatchVoxels(volume_->grid().resolution);
 }
 
 void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
   counts_.clearUint(0);
-  configureSurfaceLight(*inject_, frame, lighting_);
-  configureBounds(*inject_);
-  inject_->set("sampleCount", sampleCount_);
-  inject_->set("shift", static_cast<float>(settings_.injection.shift));
+  configureSurfaceLight(*programs_->inject, frame, lighting_, rays_.tree());
+  configureBounds(*programs_->inject);
+  programs_->inject->set("sampleCount", sampleCount_);
+  programs_->inject->set("shift", static_cast<float>(settings_.injection.shift));
   samples_->bindTexture(kInjectSamplesUnit);
   counts_.bindStorage(kInjectCountsBuffer);
   const bool byAxis = sumsOfAxis_.size() > 1;
@@ -223,37 +241,38 @@ void LightGrid::inject(frame::Frame& frame, int axis, bool restart) {
     if (byAxis && axis >= 0 && set != axis) continue;
     sumsOfAxis_[size_t(set)].clearUint(glm::uvec4(0));
     sumsOfAxis_[size_t(set)].bindImage(kInjectSumsImage, gl::Access::ReadWrite);
-    inject_->set("onlyAxis", byAxis ? set : -1);
-    inject_->dispatch(samples_->sizePx());
+    programs_->inject->set("onlyAxis", byAxis ? set : -1);
+    programs_->inject->dispatch(samples_->sizePx());
   }
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  volume_->configure(*seed_);
-  seed_->set("sumSets", static_cast<int>(sumsOfAxis_.size()));
+  volume_->configure(*programs_->seed);
+  programs_->seed->set("sumSets", static_cast<int>(sumsOfAxis_.size()));
   sums_->bindImage(kInjectSumsImage, gl::Access::Read);
   source_->bindImage(kPropagateOutImage, gl::Access::Write);
   fields_->bindImage(kSeedFieldImage, gl::Access::Write);
-  if (restart) from_ = 0;
-  seed_->set("restart", restart ? 1 : 0);
-  seed_->use();
+  if (restart) pair_ = from_ = 0;
+  programs_->seed->set("restart", restart ? 1 : 0);
+  programs_->seed->use();
   const glm::ivec3 size = volume_->grid().resolution;
   dispatchVoxels({size.x, size.y, 3 * size.z});
 }
 
-void LightGrid::restartSteps(bool lasting) {
+void LightGrid::restartSteps(bool lasting, const gl::Texture& source) {
   step_ = 0;
   if (settings_.steps.stopBelow > 0.0) {
     changes_.clearUint(0);
-    propagate_->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
+    programs_->propagate->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
   }
-  for (const gl::Program* program : {arrive_, propagate_, propagateTogether_}) {
+  for (const gl::Program* program : {programs_->arrive, programs_->propagate, programs_->reflect, residentProgram_}) {
+    if (!program) continue;
     volume_->configure(*program);
-    program->set("from", from_);
+    program->set("from", reading());
     program->set("lasting", lasting ? 1 : 0);
   }
   if (shares_) shares_->bindTexture(kShareTableUnit);
   lightCells_->bindTexture(kLightCellsUnit);
   fields_->bindTexture(kPropagateFieldUnit);
-  source_->bindTexture(kPropagateSourceUnit);
+  source.bindTexture(kPropagateSourceUnit);
   fields_->bindImage(kPropagateOutImage, gl::Access::Write);
   arrived_->bindImage(kArriveFacesImage, gl::Access::ReadWrite);
 }
@@ -262,46 +281,36 @@ void LightGrid::propagate() {
   if (settings_.steps.stopBelow > 0.0) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     changes_.bindStorage(kPropagateChangesBuffer);
-    propagate_->set("step_", step_);
+    programs_->propagate->set("step_", step_);
   }
-  propagate_->set("from", from_);
-  propagate_->use();
+  programs_->propagate->set("from", reading());
+  programs_->propagate->set("to", writing());
+  programs_->propagate->use();
   const glm::ivec3 size = volume_->grid().resolution;
   dispatchVoxels({size.x, size.y, 3 * size.z});
   from_ = 1 - from_;
   ++step_;
 }
 
-void LightGrid::propagateTogether(int steps) {
-  propagateTogether_->set("from", from_);
-  propagateTogether_->set("steps", steps);
-  propagateTogether_->use();
-  const glm::ivec3 groups = (volume_->grid().resolution + (kPropagateGroup - 1)) / kPropagateGroup;
-  glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
-                    static_cast<GLuint>(3 * groups.z));
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  from_ = 1 - from_;
-  step_ += steps;
-}
-
 void LightGrid::arrive(bool first) {
-  arrive_->set("from", from_);
-  arrive_->set("first", first ? 1 : 0);
-  arrive_->use();
+  if (resident_) resident_->signals().bindStorage(kStepSignalsBuffer);
+  programs_->arrive->set("from", reading());
+  programs_->arrive->set("first", first ? 1 : 0);
+  programs_->arrive->use();
   const glm::ivec3 size = volume_->grid().resolution;
   dispatchVoxels({size.x, size.y, 6 * size.z});
 }
 
 Image LightGrid::fieldLayer(int channel, int z) const {
-  return fields_->readLayer((3 * from_ + channel) * volume_->grid().resolution.z + z);
+  return fields_->readLayer((3 * reading() + channel) * volume_->grid().resolution.z + z);
 }
 
 glm::dvec3 LightGrid::flux() const {
   const int depth = volume_->grid().resolution.z;
   fields_->bindTexture(kPropagateFieldUnit);
   layerSums_.bindStorage(kLightFluxBuffer);
-  flux_->set("firstLayer", 3 * from_ * depth);
-  flux_->use();
+  programs_->flux->set("firstLayer", 3 * reading() * depth);
+  programs_->flux->use();
   glDispatchCompute(static_cast<GLuint>(3 * depth), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::vector<float> sums = layerSums_.read<float>();

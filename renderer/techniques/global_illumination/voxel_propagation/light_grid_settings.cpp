@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
 
+#include "experiments/base/error.h"
+
 namespace limen::techniques {
 namespace {
 
@@ -59,17 +61,24 @@ const SettingsTable<UpdateEvery>& UpdateEvery::table() {
                                            "Gaitatzes 2012, section 5.7"}};
   return kTable;
 }
+const SettingsTable<LimitedBounces>& LimitedBounces::table() {
+  using S = LimitedBounces;
+  static const SettingsTable<S> kTable = {
+      {&S::most,
+       "most",
+       {1, 8},
+       "",
+       "Surfaces that indirect light is reflected by before the one that is seen, as of paths; the first "
+       "is where it is put in",
+       "Gaitatzes 2012, section 5.6 (2)"}};
+  return kTable;
+}
 const SettingsTable<StepSettings>& StepSettings::table() {
   using S = StepSettings;
   static const SettingsTable<S> kTable = {
       {&S::sources, "sources", "When light is put in", "Gaitatzes 2012, section 5.5.2"},
-      {&S::together,
-       "together",
-       {0, 3},
-       "",
-       "Steps of one dispatch, whose result is the same; 0: as suits the device. One where light is put in "
-       "once "
-       "or steps may stop early",
+      {&S::dispatch, "dispatch",
+       "Dispatches that steps are done in, with the same result: all in one where the device keeps its groups running, one each elsewhere",
        "the bench's own"},
       {&S::stopBelow,
        "stop_below",
@@ -78,6 +87,11 @@ const SettingsTable<StepSettings>& StepSettings::table() {
        "Largest change of a voxel's flux in a step, in radiance times pi, below which steps end; 0: never",
        "the bench's own"}};
   return kTable;
+}
+void StepSettings::check() const {
+  if (dispatch == StepDispatch::Once && (sources == LightSources::Once || stopBelow > 0.0))
+    throw Error("'dispatch: once' is for steps of a lasting source that do not stop early", "dispatch",
+                "leave out 'dispatch', or give sources: steady and stop_below: 0");
 }
 const SettingsTable<LightGridSettings>& LightGridSettings::table() {
   using S = LightGridSettings;
@@ -103,6 +117,7 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
       {&S::coverage, "coverage", "Which voxels a triangle fills"},
       {&S::box, "box", "Where voxels are"},
       {&S::update, "update", "What is made anew in a frame", "Gaitatzes 2012, section 5.7"},
+      {&S::bounces, "bounces", "How often light is reflected", "Gaitatzes 2012, section 5.6"},
       {&S::injection, "injection", "How light is put in"}};
   return kTable;
 }

@@ -65,7 +65,7 @@ constexpr EnumNames<FieldFormat, 2> enumNames(FieldFormat) {
 
 struct InjectionSettings {
   double shift = 0.5;
-  int samplesAside = 2;
+  int samplesAside = 4;
   static const SettingsTable<InjectionSettings>& table();
 };
 
@@ -99,11 +99,37 @@ struct UpdateOn {
 };
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
+/// How steps are given to the GPU; all with the same result.
+enum class StepDispatch {
+  Fitting,  ///< once where that works, else each
+  Once,     ///< all in one, whose groups wait for each other
+  Each
+};
+constexpr EnumNames<StepDispatch, 3> enumNames(StepDispatch) {
+  return {{{{StepDispatch::Fitting, "fitting"}, {StepDispatch::Once, "once"}, {StepDispatch::Each, "each"}}}};
+}
+
+/// How often light is reflected.
+struct AllBounces {
+  static constexpr const char *kKind = "all", *kSummary = "as often as steps allow, all in one field";
+};
+struct LimitedBounces {
+  static constexpr const char
+      *kKind = "limited",
+      *kSummary =
+          "light of each bounce in a field of its own, one after another, at the cost of as many "
+          "propagations; surfaces absorb the last";
+  int most = 2;
+  static const SettingsTable<LimitedBounces>& table();
+};
+using GridBounces = std::variant<AllBounces, LimitedBounces>;
+
 struct StepSettings {
   LightSources sources = LightSources::Steady;
-  int together = 0;
+  StepDispatch dispatch = StepDispatch::Fitting;
   double stopBelow = 0.0;
   static const SettingsTable<StepSettings>& table();
+  void check() const;
 };
 
 struct LightGridSettings {
@@ -116,8 +142,16 @@ struct LightGridSettings {
   voxels::Coverage coverage = voxels::Coverage::Thin;
   GridBox box;
   GridUpdate update;
+  GridBounces bounces;
   InjectionSettings injection;
   static const SettingsTable<LightGridSettings>& table();
+  /// Fields that light goes through one after another.
+  int generations() const {
+    const auto* limited = std::get_if<LimitedBounces>(&bounces);
+    return limited ? limited->most : 1;
+  }
+  /// Whether what arrives is added up.
+  bool sumsArrivals() const { return steps.sources == LightSources::Once || generations() > 1; }
 };
 
 }  // namespace limen::techniques

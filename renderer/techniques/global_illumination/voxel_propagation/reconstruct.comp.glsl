@@ -128,6 +128,34 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
   return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
+#if INTERPOLATION != INTERPOLATION_ALL
+uniform int widest;  // voxels around that are looked at
+
+// Of a point that has no light around it, as in crevices lower than a voxel: the nearest light at this face whose empty voxel is in
+// front of the surface, in ever wider cubes of voxels.
+vec4 nearestLight(SurfacePoint point, vec3 at, int face) {
+  const ivec3 own = ivec3(floor(at + 0.5));
+  vec4 found = vec4(0.0);
+  float nearest = 1e30;
+  for (int reach = 1; reach <= widest && found.a == 0.0; ++reach) {
+    const int side = 2 * reach + 1;
+    for (int i = 0; i < side * side * side; ++i) {
+      const ivec3 away = ivec3(i % side, i / side % side, i / (side * side)) - reach, voxel = own + away;
+      const vec3 towards = vec3(voxel + faceStep(face)) - at;
+      if (!isInGrid(voxel) || dot(towards, towards) >= nearest || !(dot(towards, point.flatNormal) > 0.0)) continue;
+      vec4 light = lightOf(voxel, face);
+      if (light.a == 0.0) continue;
+#if GATHER == GATHER_REFLECTED
+      light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
+#endif
+      nearest = dot(towards, towards);
+      found = vec4(light.rgb, 1.0);
+    }
+  }
+  return found;
+}
+#endif
+
 vec3 indirectLight(SurfacePoint point, vec3 albedo) {
   const vec3 at = toVoxels(point.position) - 0.5;
   vec3 result = vec3(0.0);
@@ -135,17 +163,28 @@ vec3 indirectLight(SurfacePoint point, vec3 albedo) {
 #if GATHER == GATHER_REFLECTED
   albedo = vec3(1.0);
 #endif
+  bool found = false;
   uint faces = 0u;
   for (int face = 0; face < 6; ++face)
     if (faceWeight(dot(point.flatNormal, vec3(faceStep(face)))) != 0.0) faces |= 1u << face;
   // Not unrolled, so that rays stay in one place.
-  for (; faces != 0u; faces &= faces - 1u) {
-    const int face = findLSB(faces);
+  for (uint left = faces; left != 0u; left &= left - 1u) {
+    const int face = findLSB(left);
     const float weight = faceWeight(dot(point.flatNormal, vec3(faceStep(face))));
     const vec4 light = lightAtFace(point, at, face);
     result += weight * light.rgb;
     known += weight * light.a;
+    found = found || light.a > 0.0;
   }
+#if INTERPOLATION != INTERPOLATION_ALL
+  for (uint left = found ? 0u : faces; left != 0u; left &= left - 1u) {
+    const int face = findLSB(left);
+    const float weight = faceWeight(dot(point.flatNormal, vec3(faceStep(face))));
+    const vec4 light = nearestLight(point, at, face);
+    result += weight * light.rgb;
+    known += weight * light.a;
+  }
+#endif
 #if GATHER == GATHER_FACES
   return known > 1e-4 ? albedo * result / (known * 3.14159265) : vec3(0.0);
 #else

@@ -9,14 +9,29 @@
 namespace limen::techniques {
 namespace {
 
-/// Parts of each side; 0: left out.
-int64_t partsOfSide(const std::array<glm::dvec3, 3>& corners, double spacing) {
-  const double longest = std::max({glm::length(corners[1] - corners[0]), glm::length(corners[2] - corners[1]),
-                                   glm::length(corners[0] - corners[2])});
-  const double area = 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-  if (!(area > 0.0) || !std::isfinite(longest)) return 0;
-  return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(longest / spacing)));
-}
+/// A triangle in rows parallel to its longest side, which is from corner `from` to `to`.
+struct Rows {
+  size_t apex = 0, from = 1, to = 2;
+  double longest = 0.0, area = 0.0;
+  int64_t count = 0;  ///< 0: it is left out
+
+  Rows(const std::array<glm::dvec3, 3>& corners, double spacing) {
+    for (size_t c = 0; c < 3; ++c) {
+      const double side = glm::length(corners[(c + 2) % 3] - corners[(c + 1) % 3]);
+      if (side > longest) longest = side, apex = c, from = (c + 1) % 3, to = (c + 2) % 3;
+    }
+    area = 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    if (area > 0.0 && std::isfinite(longest)) count = parts(2.0 * area / longest, spacing);
+  }
+  /// Of row 0 .. count - 1, the widest first: share of the longest side at half its height, and of the area.
+  double widthOf(int64_t row) const { return 1.0 - (double(row) + 0.5) / double(count); }
+  double areaOf(int64_t row) const { return (2.0 * double(count - row) - 1.0) / (double(count) * double(count)); }
+  int64_t samplesOf(int64_t row, double spacing) const { return parts(longest * widthOf(row), spacing); }
+
+  static int64_t parts(double length, double spacing) {
+    return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(length / spacing)));
+  }
+};
 
 }  // namespace
 
@@ -28,25 +43,30 @@ std::vector<SurfaceSample> sampleSurfaces(const scene::Scene& scene, double spac
     return corners;
   };
   for (;; spacing *= 1.5) {
+    const double most = double(std::max(mostSamples, mesh.triangles.size()));
     double total = 0.0;
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      total += std::pow(double(partsOfSide(cornersOf(t), spacing)), 2.0);
-    if (total <= double(std::max(mostSamples, mesh.triangles.size()))) break;
+    for (size_t t = 0; t < mesh.triangles.size() && total <= most; ++t) {
+      const Rows rows(cornersOf(t), spacing);
+      for (int64_t row = 0; row < rows.count && total <= most; ++row)
+        total += double(rows.samplesOf(row, spacing));
+    }
+    if (total <= most) break;
   }
   std::vector<SurfaceSample> out;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::array<glm::dvec3, 3> corners = cornersOf(t);
-    const int64_t n = partsOfSide(corners, spacing);
-    if (n == 0) continue;
-    const double area = 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    const double part = 1.0 / double(n);
-    for (int64_t j = 0; j < n; ++j)
-      for (int64_t i = 0; i < n - j; ++i)
-        for (int upper = 0; upper < (i < n - j - 1 ? 2 : 1); ++upper) {
-          const double third = upper == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
-          out.push_back({static_cast<uint32_t>(t), static_cast<float>((double(i) + third) * part),
-                         static_cast<float>((double(j) + third) * part), area * part * part});
-        }
+    const Rows rows(cornersOf(t), spacing);
+    for (int64_t row = 0; row < rows.count; ++row) {
+      const int64_t count = rows.samplesOf(row, spacing);
+      const double width = rows.widthOf(row), area = rows.area * rows.areaOf(row) / double(count);
+      for (int64_t i = 0; i < count; ++i) {
+        std::array<double, 3> weights{};
+        weights[rows.apex] = 1.0 - width;
+        weights[rows.to] = width * (double(i) + 0.5) / double(count);
+        weights[rows.from] = width - weights[rows.to];
+        out.push_back(
+            {static_cast<uint32_t>(t), static_cast<float>(weights[1]), static_cast<float>(weights[2]), area});
+      }
+    }
   }
   return out;
 }

@@ -21,6 +21,8 @@
 // - What a voxel reflects is diffuse (`reflection`), and what arrives is kept for each of its faces.
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "renderer/techniques/frames_before.h"
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
@@ -33,16 +35,55 @@ namespace {
 
 constexpr const char* kVoxelReconstructPass = "global_illumination/reconstruct";
 
-enum class GatherWeights {
-  Visible,   ///< occupied voxels whose lit faces a ray finds, where another wall is near
-  Occupied,  ///< occupied voxels; light behind a thin wall leaks past it
-  All
-};
-constexpr EnumNames<GatherWeights, 3> enumNames(GatherWeights) {
-  return {{{{GatherWeights::Visible, "visible"},
-            {GatherWeights::Occupied, "occupied"},
-            {GatherWeights::All, "all"}}}};
+/// Of a point that has no light around it, as in crevices lower than a voxel. None by default: light from
+/// farther away is too bright there, by more than none is too dark.
+constexpr int kWidestDefault = 0;
+template <class S>
+SettingsTable<S> widestTable() {
+  return {{&S::widest,
+           "widest",
+           {0, 4},
+           "voxels",
+           "Around a point that has no light otherwise, as in crevices lower than a voxel, within which the "
+           "nearest voxel lights it; 0: it gets none",
+           "the bench's own"}};
 }
+struct VisibleWeights {
+  static constexpr const char *kKind = "visible",
+                              *kSummary =
+                                  "occupied voxels whose lit faces a ray finds, where another wall is near";
+  int widest = kWidestDefault;
+  static const SettingsTable<VisibleWeights>& table() {
+    static const SettingsTable<VisibleWeights> kTable = widestTable<VisibleWeights>();
+    return kTable;
+  }
+};
+struct OccupiedWeights {
+  static constexpr const char *kKind = "occupied",
+                              *kSummary = "occupied voxels; light behind a thin wall leaks past it";
+  int widest = kWidestDefault;
+  static const SettingsTable<OccupiedWeights>& table() {
+    static const SettingsTable<OccupiedWeights> kTable = widestTable<OccupiedWeights>();
+    return kTable;
+  }
+};
+struct AllWeights {
+  static constexpr const char *kKind = "all", *kSummary = "all voxels, as if empty ones were dark surfaces";
+};
+using GatherWeights = std::variant<VisibleWeights, OccupiedWeights, AllWeights>;
+
+void defineWeights(gl::ShaderDefines& defines, const GatherWeights& weights) {
+  int number = 0;
+  for (const char* name : {"VISIBLE", "OCCUPIED", "ALL"})
+    defines["INTERPOLATION_" + std::string(name)] = std::to_string(number++);
+  defines["INTERPOLATION"] = std::to_string(weights.index());
+}
+int widestOf(const GatherWeights& weights) {
+  if (const auto* visible = std::get_if<VisibleWeights>(&weights)) return visible->widest;
+  const auto* occupied = std::get_if<OccupiedWeights>(&weights);
+  return occupied ? occupied->widest : 0;
+}
+
 enum class GatherForm {
   Faces,     ///< light at each face, by the squares of the normal's components
   Incident,  ///< lobes that have arrived (Gaitatzes 2012, equation 14)
@@ -56,7 +97,7 @@ constexpr EnumNames<GatherForm, 3> enumNames(GatherForm) {
 
 struct ReconstructionSettings {
   GatherForm from = GatherForm::Faces;
-  GatherWeights weights = GatherWeights::Visible;
+  GatherWeights weights;
   static const SettingsTable<ReconstructionSettings>& table() {
     using S = ReconstructionSettings;
     static const SettingsTable<S> kTable = {
@@ -92,7 +133,7 @@ class VoxelPropagation : public Technique {
     light_.emplace(frame, settings_.grid, settings_.surfaces);
     gl::ShaderDefines defines = light_->volume().defines();
     defineEnum(defines, "GATHER", settings_.reconstruction.from);
-    defineEnum(defines, "INTERPOLATION", settings_.reconstruction.weights);
+    defineWeights(defines, settings_.reconstruction.weights);
     picture_.emplace(frame, "renderer/techniques/global_illumination/voxel_propagation/reconstruct.comp.glsl",
                      defines, settings_.surfaces, kVoxelReconstructPass);
     settings_.before.renderAll(frame, [this](frame::Frame& before) { light_->update(before); });
@@ -102,14 +143,21 @@ class VoxelPropagation : public Technique {
     light_->update(frame);
     picture_->render(frame, [&](const gl::Program& program) {
       light_->volume().configure(program);
+      program.set("widest", widestOf(settings_.reconstruction.weights));
       light_->arrived().bindTexture(kReconstructArrivedUnit);
       light_->lightCells().bindTexture(kLightCellsUnit);
-    });
+    }, light_->tree());
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }
 
+  std::vector<std::string> remarks() const override {
+    if (!light_ || light_->stepsRemark().empty()) return {};
+    return {light_->stepsRemark()};
+  }
+
   std::vector<Counter> count(frame::Frame& frame) override {
+    light_->checkSteps();
     const auto meanFlux = [&] {
       const glm::dvec3 flux = light_->flux();
       return (flux.r + flux.g + flux.b) / 3.0;
@@ -141,10 +189,11 @@ class VoxelPropagation : public Technique {
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
     {.name = "global_illumination/voxel_propagation",
-     .version = 2,
+     .version = 3,
      .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
      .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
      .product = ProductKind::Colour,
+     .followsMotion = true,
      .counters = {
          {"injected_flux", "Flux put into the grid, mean of the channels, radiance times area", "",
           Direction::Neither},
