@@ -29,8 +29,7 @@ IndirectPicture::IndirectPicture(frame::Frame& frame, const std::string& shader,
   frame.passes().setBytesHeld(pass, picture_.bytes());
 }
 
-void IndirectPicture::render(frame::Frame& frame,
-                             const std::function<void(const gl::Program&)>& configure,
+void IndirectPicture::render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure,
                              const ray_tracing::RayTree* tree) const {
   const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
   const auto scope = frame.passes().open(pass_);

@@ -137,7 +137,7 @@ class FieldReader {
   std::optional<visibility_fields::VisibilityFields> fields_;
   std::optional<gl::Buffer> objectOf_;
   std::optional<TracedTriangles> tree_;
-  std::optional<ray_tracing::RayForest> forest_;  ///< in place of `tree_`, where parts move
+  std::optional<ray_tracing::RayForest> forest_;     ///< in place of `tree_`, where parts move
   std::vector<visibility_fields::Pose> rest_, now_;  ///< of the objects
   std::vector<const scene::PartMotion*> motions_;    ///< of each object; null: it rests
 };

@@ -49,8 +49,8 @@ class FieldTechnique : public Technique {
     counting_ = &frame.context().programs().compute(S::kShader, defines);
     picture_.emplace(S::kFormat, frame.sizePx());
     filter_.prepare(frame);
-    frame.passes().setBytesHeld(S::kPass, picture_->bytes() + reader_.bytesHeld() + near_.bytesHeld() +
-                                              doubtful_.bytesHeld());
+    frame.passes().setBytesHeld(
+        S::kPass, picture_->bytes() + reader_.bytesHeld() + near_.bytesHeld() + doubtful_.bytesHeld());
   }
   void render(frame::Frame& frame) override {
     run(frame, *program_, nullptr);

@@ -41,9 +41,7 @@ class ObjectTracer {
   /// Before a pass is opened, in each frame.
   void update(frame::Frame& frame);
   void bind(const gl::Program& program) const;
-  int64_t bytesHeld() const {
-    return (tree_ ? tree_->bytes() : grid_->bytes()) + objectOf_->bytes();
-  }
+  int64_t bytesHeld() const { return (tree_ ? tree_->bytes() : grid_->bytes()) + objectOf_->bytes(); }
   /// Dispatches `program` over the frame for all rows of the rays' cells: at once, or one by one on a
   /// software renderer, which limits the steps of an invocation.
   static void dispatchRows(const gl::Program& program, frame::Frame& frame, int rows);

@@ -18,7 +18,6 @@ const frame::GBufferChannel& channelOf(frame::Frame& frame, frame::Channel chann
   return frame.get<frame::GBufferChannel>(frame::ChannelSetting{channel});
 }
 
-
 }  // namespace
 
 void checkObjectCount(const std::vector<vf::RigidObject>& objects, const char* mend) {

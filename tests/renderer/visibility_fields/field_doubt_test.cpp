@@ -17,7 +17,9 @@ constexpr const char *kDoubtField = "visibility_fields/ambient_occlusion",
 
 class FieldDoubtTest : public TechniqueTest {
  protected:
-  static Given rays() { return {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}}; }
+  static Given rays() {
+    return {{"rays", int64_t{256}}, {"radius", 10.0}, {"objects", std::string("parts")}};
+  }
   static Given with(Given given, const Given& more) {
     for (const auto& [path, value] : more) given[path] = value;
     return given;
@@ -30,8 +32,8 @@ class FieldDoubtTest : public TechniqueTest {
   }
 };
 
-// With nothing to compare no ray is in doubt, and the picture is that of the field alone. The farther apart the
-// compared rays are the more are in doubt, and the fewer of those that are not err.
+// With nothing to compare no ray is in doubt, and the picture is that of the field alone. The farther apart
+// the compared rays are the more are in doubt, and the fewer of those that are not err.
 TEST_F(FieldDoubtTest, TheFartherDoubtReachesTheMoreIsTracedAndTheLessErrs) {
   const scene::Scene scene = twoBallsOverGround();
   const Image exact = render(scene, kDoubtTraced, rays(), kDoubtPx).product;
@@ -55,15 +57,15 @@ TEST_F(FieldDoubtTest, TheFartherDoubtReachesTheMoreIsTracedAndTheLessErrs) {
     }
     before = error, shareBefore = share;
   }
-  // A stored ray passes a ray that is asked for by up to 0.7 of the distance between positions, 0.107 radii, where it
-  // enters and leaves the sphere, and by half a texel: less than two texels, 0.055 each at a radius, unless it meets a
-  // ball soon after it enters, where texels are closer.
+  // A stored ray passes a ray that is asked for by up to 0.7 of the distance between positions, 0.107 radii,
+  // where it enters and leaves the sphere, and by half a texel: less than two texels, 0.055 each at a radius,
+  // unless it meets a ball soon after it enters, where texels are closer.
   EXPECT_LT(before, 0.05 * alone);
 }
 
-// Silhouettes take few rays: less than those within two texels, 0.055, of the outlines of balls in a sphere of 0.91,
-// at most 4 pi 0.3 / 0.91 long, of the half space's unit disc in which a sphere seen at 1.1 or more has a radius below
-// 0.83: 4.1 * 0.83 * 2 * 0.055 / pi.
+// Silhouettes take few rays: less than those within two texels, 0.055, of the outlines of balls in a sphere
+// of 0.91, at most 4 pi 0.3 / 0.91 long, of the half space's unit disc in which a sphere seen at 1.1 or more
+// has a radius below 0.83: 4.1 * 0.83 * 2 * 0.055 / pi.
 TEST_F(FieldDoubtTest, FewRaysAreTraced) {
   const Given fine = with(rays(), {{"positions", int64_t{4226}}, {"directions", int64_t{64}}});
   const Rendered found = render(twoBallsOverGround(), kDoubtField, with(fine, doubtful(1.0)), kDoubtPx, true);
@@ -93,32 +95,37 @@ TEST_F(FieldDoubtTest, IsTheSameInEveryRun) {
   EXPECT_EQ(meanDifference(first, render(scene, kDoubtField, given, kDoubtPx).product), 0.0);
 }
 
-// Two parts, and falloffs that let light through by distance: neighbours that differ by less than is asked for may do
-// so, and no ray errs by more than a field does. Light that is let through by distance is traced to the nearest.
+// Two parts, and falloffs that let light through by distance: neighbours that differ by less than is asked
+// for may do so, and no ray errs by more than a field does. Light that is let through by distance is traced
+// to the nearest.
 TEST_F(FieldDoubtTest, OfSeveralObjectsTheNearestCounts) {
   scene::Scene scene = twoBallsOverGround();
   scene::addPart(scene, "box", scene::box({-0.9, 0.6, -0.3}, {0.2, 0.7, 0.3}), glm::vec3(0.5F));
   for (const char* falloff : {"binary", "linear"}) {
-    const Given near = with(rays(), {{"rays", int64_t{64}}, {"radius", 0.1}, {"falloff", std::string(falloff)}});
+    const Given near =
+        with(rays(), {{"rays", int64_t{64}}, {"radius", 0.1}, {"falloff", std::string(falloff)}});
     const Given fine = with(near, {{"positions", int64_t{1090}}, {"directions", int64_t{64}}});
     const Image exact = render(scene, kDoubtTraced, near, kDoubtPx).product;
     const double alone = meanDifference(
-        render(scene, kDoubtField, with(fine, {{"combine.near", std::string("field")}}), kDoubtPx).product, exact);
+        render(scene, kDoubtField, with(fine, {{"combine.near", std::string("field")}}), kDoubtPx).product,
+        exact);
     const double error =
         meanDifference(render(scene, kDoubtField, with(fine, doubtful(2.0, 0.5)), kDoubtPx).product, exact);
     EXPECT_LT(error, 0.25 * alone) << falloff;
   }
 }
 
-// A box is convex: nothing of it is dark. Rays that start on it are in doubt where slack does not tell them from what
-// blocks, and are traced; none of the others is darker than the field alone makes it.
+// A box is convex: nothing of it is dark. Rays that start on it are in doubt where slack does not tell them
+// from what blocks, and are traced; none of the others is darker than the field alone makes it.
 TEST_F(FieldDoubtTest, AConvexObjectDoesNotOccludeItself) {
   scene::Scene scene;
   scene::addPart(scene, "box", scene::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), glm::vec3(0.5F));
   scene::setStillCamera(scene, scene::orbitCamera({0.0, 0.0, 0.0}, 3.0, 30.0, 30.0));
-  const Given given = with({{"rays", int64_t{64}}, {"radius", 10.0}, {"positions", int64_t{1090}}}, doubtful(1.0, 0.5));
+  const Given given =
+      with({{"rays", int64_t{64}}, {"radius", 10.0}, {"positions", int64_t{1090}}}, doubtful(1.0, 0.5));
   const Image found = render(scene, kDoubtField, given, kDoubtPx).product;
-  const Image exact = render(scene, kDoubtTraced, {{"rays", int64_t{64}}, {"radius", 10.0}}, kDoubtPx).product;
+  const Image exact =
+      render(scene, kDoubtTraced, {{"rays", int64_t{64}}, {"radius", 10.0}}, kDoubtPx).product;
   EXPECT_LT(meanDifference(found, exact), 1e-3);
 }
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/scene/part_motion.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
-#include "renderer/scene/part_motion.h"
 #include "tests/renderer/techniques/reflections/reflection_fixture.h"
 
 namespace limen::techniques {
@@ -78,8 +78,7 @@ class FieldMotionTest : public TechniqueTest {
   /// One technique, prepared at time 0, at several times in turn.
   static void renderAt(const scene::Scene& scene, const std::string& technique, const Given& given,
                        const std::vector<double>& times,
-                       const std::function<void(double, const Image&)>& look,
-                       glm::ivec2 sizePx = kMotionPx) {
+                       const std::function<void(double, const Image&)>& look, glm::ivec2 sizePx = kMotionPx) {
     const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
     const frame::GpuScene gpuScene(scene);
     frame::Frame frame(context(), scene, gpuScene, sizePx);
@@ -166,34 +165,39 @@ TEST_F(FieldMotionTest, ShadowsFollowAnObjectThatTurnsAndShifts) {
            });
 }
 
-// Mirrors among boxes and a cone that turn and shift. Traced: as FieldReflectionTest.TracedRaysAgreeWithTheReference-
-// PixelByPixel, 2e-4 but for pixels at edges, 40 of 160 x 120 there, so a quarter of that here, where more edges are.
-// Fields: what they err at the outlines of what is mirrored is a fiftieth at most of what changes between the two
-// times, which is what objects that stayed behind would err.
+// Mirrors among boxes and a cone that turn and shift. Traced: as
+// FieldReflectionTest.TracedRaysAgreeWithTheReference- PixelByPixel, 2e-4 but for pixels at edges, 40 of 160
+// x 120 there, so a quarter of that here, where more edges are. Fields: what they err at the outlines of what
+// is mirrored is a fiftieth at most of what changes between the two times, which is what objects that stayed
+// behind would err.
 TEST_F(FieldMotionTest, ReflectionsFollowObjectsThatTurnAndShift) {
   constexpr glm::ivec2 kSize{80, 60};
-  const scene::Scene scene = makeScene(
-      "mirrors/ellipsoid", {{"tessellation", int64_t{24}}, {"motion", std::string("moving")}, {"motion.time_s", 0.3}});
+  const scene::Scene scene =
+      makeScene("mirrors/ellipsoid",
+                {{"tessellation", int64_t{24}}, {"motion", std::string("moving")}, {"motion.time_s", 0.3}});
   const Given rays = {{"rays", int64_t{1}}};
   std::vector<Image> traced;
-  renderAt(scene, "visibility_fields/traced_reflections", rays, {0.0, 1.3},
-           [&](double, const Image& image) { traced.push_back(image); }, kSize);
+  renderAt(
+      scene, "visibility_fields/traced_reflections", rays, {0.0, 1.3},
+      [&](double, const Image& image) { traced.push_back(image); }, kSize);
   const double change = meanDifference(traced[0], traced[1]);
   ASSERT_GT(change, 0.01);
   size_t at = 0;
-  renderAt(scene, "visibility_fields/reflections", rays, {0.0, 1.3},
-           [&](double time, const Image& image) {
-             const Image exact =
-                 render(scene::movedTo(scene, time), "reflections/reference", {{"bounces", int64_t{1}}}, kSize).product;
-             EXPECT_LE(differing(traced[at], exact, 2e-4).count, 10U * 2U) << time;
-             EXPECT_LT(meanDifference(image, exact), 0.02 * change) << time;
-             ++at;
-           },
-           kSize);
+  renderAt(
+      scene, "visibility_fields/reflections", rays, {0.0, 1.3},
+      [&](double time, const Image& image) {
+        const Image exact =
+            render(scene::movedTo(scene, time), "reflections/reference", {{"bounces", int64_t{1}}}, kSize)
+                .product;
+        EXPECT_LE(differing(traced[at], exact, 2e-4).count, 10U * 2U) << time;
+        EXPECT_LT(meanDifference(image, exact), 0.02 * change) << time;
+        ++at;
+      },
+      kSize);
 }
 
-// As for pixels, with vertices 2 / 64 apart, between which values are interpolated: (2 / 64)^2 / 8 of the second
-// derivative, which is below 1 / 0.15^2 for what hides at a height of 0.15 or more: 0.006.
+// As for pixels, with vertices 2 / 64 apart, between which values are interpolated: (2 / 64)^2 / 8 of the
+// second derivative, which is below 1 / 0.15^2 for what hides at a height of 0.15 or more: 0.006.
 TEST_F(FieldMotionTest, VerticesAreOccludedByObjectsWhereTheyAre) {
   scene::Scene scene = turningBox();
   scene::Scene meshed;
@@ -205,18 +209,18 @@ TEST_F(FieldMotionTest, VerticesAreOccludedByObjectsWhereTheyAre) {
   for (const bool traced : {true, false}) {
     Given given = {{"rays", int64_t{1024}}, {"radius", 10.0}};
     if (!traced) given.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}});
-    renderAt(meshed,
-             traced ? "visibility_fields/traced_vertex_occlusion" : "visibility_fields/vertex_occlusion", given,
-             {0.0, 0.7, 40.3}, [&](double time, const Image& image) {
-               double sum = 0.0;
-               for (int y = 0; y < kMotionPx.y; ++y)
-                 for (int x = 0; x < kMotionPx.x; ++x) {
-                   const double open = 1.0 - hiddenByBox(groundBehind(x, y), meshed.motions[0].at(time));
-                   ASSERT_NEAR(image.at(x, y), open, 0.03 + (traced ? 0.0 : 0.05)) << time << ' ' << x << ' ' << y;
-                   sum += image.at(x, y) - open;
-                 }
-               EXPECT_LT(std::abs(sum / (kMotionPx.x * kMotionPx.y)), 0.01) << time;
-             });
+    renderAt(
+        meshed, traced ? "visibility_fields/traced_vertex_occlusion" : "visibility_fields/vertex_occlusion",
+        given, {0.0, 0.7, 40.3}, [&](double time, const Image& image) {
+          double sum = 0.0;
+          for (int y = 0; y < kMotionPx.y; ++y)
+            for (int x = 0; x < kMotionPx.x; ++x) {
+              const double open = 1.0 - hiddenByBox(groundBehind(x, y), meshed.motions[0].at(time));
+              ASSERT_NEAR(image.at(x, y), open, 0.03 + (traced ? 0.0 : 0.05)) << time << ' ' << x << ' ' << y;
+              sum += image.at(x, y) - open;
+            }
+          EXPECT_LT(std::abs(sum / (kMotionPx.x * kMotionPx.y)), 0.01) << time;
+        });
   }
 }
 

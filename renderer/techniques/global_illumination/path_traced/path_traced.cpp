@@ -35,7 +35,9 @@ class PathTraced : public Technique {
     sums_.emplace(gl::Format::RGBA32F, frame.sizePx());
     picture_.emplace(gl::Format::RGBA32F, frame.sizePx());
     rays_.emplace(frame);
-    frame.passes().setBytesHeld(kPathsPass, sums_->bytes() + (rays_->tree() ? rays_->bytes() : frame.gpuScene().rays(frame.context()).bytes()));
+    frame.passes().setBytesHeld(
+        kPathsPass,
+        sums_->bytes() + (rays_->tree() ? rays_->bytes() : frame.gpuScene().rays(frame.context()).bytes()));
     frame.passes().setBytesHeld(kMeanPass, picture_->bytes());
   }
 

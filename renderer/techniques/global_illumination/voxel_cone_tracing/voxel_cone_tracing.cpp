@@ -37,7 +37,8 @@ class VoxelConeTracing : public Technique {
 
   void render(frame::Frame& frame) override {
     pyramid_->make(frame);
-    picture_->render(frame, [&](const gl::Program& program) { pyramid_->configure(program); }, pyramid_->tree());
+    picture_->render(
+        frame, [&](const gl::Program& program) { pyramid_->configure(program); }, pyramid_->tree());
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }

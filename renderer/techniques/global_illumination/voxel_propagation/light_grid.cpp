@@ -65,8 +65,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
                          std::holds_alternative<UpdateAxes>(settings.update);
   pairs_ = continued ? settings.generations() : 1;
   fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z * pairs_);
-  if (settings.generations() > 1)
-    reflected_.emplace(gl::Format::RGBA32F, glm::ivec2(size), 1, 3 * size.z);
+  if (settings.generations() > 1) reflected_.emplace(gl::Format::RGBA32F, glm::ivec2(size), 1, 3 * size.z);
   layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
   lightCells_.emplace(gl::Format::R32UI, glm::ivec2(size), 1, size.z);
   const bool summed = settings.sumsArrivals();
@@ -85,7 +84,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
   frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
   frame.passes().setBytesHeld(kPropagatePass, fields_->bytes() + (reflected_ ? reflected_->bytes() : 0) +
-                                                   (resident_ ? resident_->bytes() : 0));
+                                                  (resident_ ? resident_->bytes() : 0));
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
@@ -117,8 +116,9 @@ void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
   if (resident_) programs_->arrive = &programs_->arriveAfterResident(frame);
   if (needed && !resident_)
     throw Error("cannot do all steps of light in one dispatch: " + reason + "; use dispatch: fitting");
-  stepsRemark_ = resident_ ? "Steps of light are one dispatch of " + what + ", which were tried on this device."
-                           : "Steps of light are one dispatch each: " + reason + ".";
+  stepsRemark_ = resident_
+                     ? "Steps of light are one dispatch of " + what + ", which were tried on this device."
+                     : "Steps of light are one dispatch each: " + reason + ".";
 }
 
 void LightGrid::checkSteps() const {
@@ -263,7 +263,8 @@ void LightGrid::restartSteps(bool lasting, const gl::Texture& source) {
     changes_.clearUint(0);
     programs_->propagate->set("stopBelow", static_cast<float>(settings_.steps.stopBelow));
   }
-  for (const gl::Program* program : {programs_->arrive, programs_->propagate, programs_->reflect, residentProgram_}) {
+  for (const gl::Program* program :
+       {programs_->arrive, programs_->propagate, programs_->reflect, residentProgram_}) {
     if (!program) continue;
     volume_->configure(*program);
     program->set("from", reading());

@@ -88,8 +88,8 @@ class LightGrid {
   std::optional<LightPrograms> programs_;
   const gl::Program* residentProgram_ = nullptr;
   std::optional<gl::Texture> samples_, sums_, source_, reflected_, arrived_, lightCells_;
-  /// Pairs, of which a step reads one field and writes the other. All are one texture, so that nothing is bound
-  /// between steps: drivers take longer for that than small grids do for a step.
+  /// Pairs, of which a step reads one field and writes the other. All are one texture, so that nothing is
+  /// bound between steps: drivers take longer for that than small grids do for a step.
   std::optional<gl::Texture> fields_;
   std::optional<gl::VolumeTexture> shares_;
   std::vector<gl::Texture> sumsOfAxis_;

@@ -78,7 +78,8 @@ const SettingsTable<StepSettings>& StepSettings::table() {
   static const SettingsTable<S> kTable = {
       {&S::sources, "sources", "When light is put in", "Gaitatzes 2012, section 5.5.2"},
       {&S::dispatch, "dispatch",
-       "Dispatches that steps are done in, with the same result: all in one where the device keeps its groups running, one each elsewhere",
+       "Dispatches that steps are done in, with the same result: all in one where the device keeps its "
+       "groups running, one each elsewhere",
        "the bench's own"},
       {&S::stopBelow,
        "stop_below",

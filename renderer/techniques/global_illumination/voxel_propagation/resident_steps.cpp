@@ -3,10 +3,6 @@
 
 #include <epoxy/gl.h>
 
-#include <cstdlib>
-#include <sstream>
-
-
 #include "renderer/techniques/global_illumination/illumination_bindings.h"
 
 namespace limen::techniques {
@@ -20,12 +16,6 @@ constexpr int kMostInvocations = 768;  // of a group, so that each may have 80 r
 }  // namespace
 
 glm::ivec3 ResidentSteps::tileOf(glm::ivec3 gridSize) {
-  if (const char* given = std::getenv("LIMEN_TILE")) {
-    std::istringstream in(given);
-    glm::ivec3 tile(0);
-    in >> tile.x >> tile.y >> tile.z;
-    return tile;
-  }
   if (3 * gridSize.x * gridSize.y * gridSize.z <= kMostInvocations) return gridSize;
   return {8, 8, 4};
 }
@@ -41,8 +31,7 @@ ResidentSteps::ResidentSteps(const gl::Program& program, glm::ivec3 gridSize, gl
     : program_(program),
       groups_((gridSize + tile - 1) / tile),
       signals_(int64_t{4} * (kSignalStride * groups() + 1), nullptr),
-      lights_(int64_t{2} * 3 * gridSize.x * gridSize.y * gridSize.z *
-                  (field == gl::Format::RGBA16F ? 8 : 16),
+      lights_(int64_t{2} * 3 * gridSize.x * gridSize.y * gridSize.z * (field == gl::Format::RGBA16F ? 8 : 16),
               nullptr) {
   signals_.clearUint(0);
   lights_.clearUint(0);

@@ -25,7 +25,9 @@ struct Rows {
   }
   /// Of row 0 .. count - 1, the widest first: share of the longest side at half its height, and of the area.
   double widthOf(int64_t row) const { return 1.0 - (double(row) + 0.5) / double(count); }
-  double areaOf(int64_t row) const { return (2.0 * double(count - row) - 1.0) / (double(count) * double(count)); }
+  double areaOf(int64_t row) const {
+    return (2.0 * double(count - row) - 1.0) / (double(count) * double(count));
+  }
   int64_t samplesOf(int64_t row, double spacing) const { return parts(longest * widthOf(row), spacing); }
 
   static int64_t parts(double length, double spacing) {

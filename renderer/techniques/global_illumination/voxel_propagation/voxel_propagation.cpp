@@ -141,12 +141,15 @@ class VoxelPropagation : public Technique {
 
   void render(frame::Frame& frame) override {
     light_->update(frame);
-    picture_->render(frame, [&](const gl::Program& program) {
-      light_->volume().configure(program);
-      program.set("widest", widestOf(settings_.reconstruction.weights));
-      light_->arrived().bindTexture(kReconstructArrivedUnit);
-      light_->lightCells().bindTexture(kLightCellsUnit);
-    }, light_->tree());
+    picture_->render(
+        frame,
+        [&](const gl::Program& program) {
+          light_->volume().configure(program);
+          program.set("widest", widestOf(settings_.reconstruction.weights));
+          light_->arrived().bindTexture(kReconstructArrivedUnit);
+          light_->lightCells().bindTexture(kLightCellsUnit);
+        },
+        light_->tree());
   }
 
   const gl::Texture& product() const override { return picture_->texture(); }

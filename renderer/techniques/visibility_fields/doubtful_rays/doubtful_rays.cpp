@@ -19,9 +19,10 @@ static_assert(kDoubtGroup == kGroupSide * kGroupSide);
 void checkNear(const NearSetting& setting, const FieldReading& field, const char* where) {
   if (!std::holds_alternative<DoubtfulTraced>(setting)) return;
   if (field.fetch == FieldFetch::Nearest)
-    throw Error("'near: doubtful' compares rays around the direction that is asked for, which 'fetch: nearest' "
-                "does not know",
-                where, "give fetch: aimed, or near: field or traced");
+    throw Error(
+        "'near: doubtful' compares rays around the direction that is asked for, which 'fetch: nearest' "
+        "does not know",
+        where, "give fetch: aimed, or near: field or traced");
   if (field.form.directionMap != visibility_fields::DirectionForm::Concentric)
     throw Error("'near: doubtful' compares neighbours in concentric maps", where,
                 "leave out 'direction_map', or give near: field or traced");
@@ -48,8 +49,9 @@ void DoubtfulRays::prepare(frame::Frame& frame, const std::string& shader, const
                               {{"DOUBT_FORMAT", format == gl::Format::R32F ? "r32f" : "rgba32f"}});
   const int64_t pixels = int64_t{frame.sizePx().x} * frame.sizePx().y, rays = pixels * raysPerPx;
   if (rays > std::numeric_limits<uint32_t>::max())
-    throw Error("the picture has " + std::to_string(rays) + " rays, more than are counted for 'near: doubtful'",
-                "rays", "use fewer 'rays', or a smaller image");
+    throw Error(
+        "the picture has " + std::to_string(rays) + " rays, more than are counted for 'near: doubtful'",
+        "rays", "use fewer 'rays', or a smaller image");
   raysPerPx_ = raysPerPx;
   capacity_ = static_cast<uint32_t>(
       std::min(std::ceil(setting_->capacity * static_cast<double>(rays)), static_cast<double>(rays)));
@@ -104,11 +106,11 @@ std::vector<Counter> DoubtfulRays::count(const frame::Frame& frame) const {
 }
 
 std::vector<Quantity> DoubtfulRays::quantities() {
-  return {{"doubtful_ray_share", "Rays of the picture about which fields are in doubt, and which are traced",
-           "", Direction::LowerIsBetter, "bench"},
-          {"doubtful_overflow",
-           "1: there were more doubtful rays than the list takes, so that none was traced", "",
-           Direction::LowerIsBetter, "bench"}};
+  return {
+      {"doubtful_ray_share", "Rays of the picture about which fields are in doubt, and which are traced", "",
+       Direction::LowerIsBetter, "bench"},
+      {"doubtful_overflow", "1: there were more doubtful rays than the list takes, so that none was traced",
+       "", Direction::LowerIsBetter, "bench"}};
 }
 
 }  // namespace limen::techniques

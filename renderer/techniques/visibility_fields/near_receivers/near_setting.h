@@ -23,12 +23,12 @@ struct NearTraced {
 };
 /// At any distance: silhouettes as well as what is near.
 struct DoubtfulTraced {
-  static constexpr const char
-      *kKind = "doubtful",
-      *kSummary =
-          "single rays are traced, near an object or not: those about which the field's rays around disagree, "
-          "those that meet a surface nearer than these are fine, and those that are blocked but it is not "
-          "known where";
+  static constexpr const char *
+      kKind = "doubtful",
+     *kSummary =
+         "single rays are traced, near an object or not: those about which the field's rays around disagree, "
+         "those that meet a surface nearer than these are fine, and those that are blocked but it is not "
+         "known where";
   double reach = 0.5;
   double difference = 0.1;
   double footprints = 0.5;

@@ -43,7 +43,8 @@ class TracedVertexOcclusion : public VertexTechnique {
       ranges_.push_back({object.part, first, rest_.size()});
     }
     rays_.emplace(vertices_, triangles_);
-    return static_cast<int64_t>(vertices_.size() * sizeof(glm::vec3) + triangles_.size() * sizeof(glm::uvec3));
+    return static_cast<int64_t>(vertices_.size() * sizeof(glm::vec3) +
+                                triangles_.size() * sizeof(glm::uvec3));
   }
   /// Builds the tree anew of moved vertices, whatever poses fields are placed in.
   void place(const scene::Scene& scene, double timeS) override {

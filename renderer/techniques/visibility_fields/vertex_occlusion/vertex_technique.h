@@ -60,7 +60,7 @@ class VertexTechnique : public Technique {
   double radius_ = 0.0, far_ = 0.0, makeS_ = 0.0, occlusionS_ = 0.0;
   std::vector<OccludedVertex> rest_, vertices_;  ///< where they rest; where they are
   std::vector<uint32_t> motions_;                ///< of all vertices of the scene (motionsOfVertices())
-  std::vector<glm::dvec3> directions_;  ///< about z
+  std::vector<glm::dvec3> directions_;           ///< about z
   std::vector<float> values_;
   std::optional<gl::Buffer> onGpu_;
   std::optional<gl::Texture> picture_;

@@ -10,8 +10,8 @@ namespace {
 
 class MovingPartsLight : public IndirectLightTest {
  protected:
-  /// A room with a red box that has moved by more than its own width after a second and never leaves the room,
-  /// so that voxels are the same at all times.
+  /// A room with a red box that has moved by more than its own width after a second and never leaves the
+  /// room, so that voxels are the same at all times.
   static scene::Scene roomWithMovingBox() {
     scene::Scene scene = makeScene("global_illumination/room");
     const scene::Bounds bounds = scene.bounds();

@@ -75,8 +75,9 @@ TEST_F(ResidentLightSteps, AreStepsOneByOne) {
 /// All transports and reflections, in one group.
 TEST_F(ResidentLightSteps, HoldForAllTransports) {
   const scene::Scene scene = makeScene("global_illumination/slanted_wall");
-  for (const LightTransport& transport : {LightTransport(MomentTransport{}), LightTransport(FaceTransport{}),
-                                          LightTransport(ConeTransport{}), LightTransport(ComponentTransport{})})
+  for (const LightTransport& transport :
+       {LightTransport(MomentTransport{}), LightTransport(FaceTransport{}), LightTransport(ConeTransport{}),
+        LightTransport(ComponentTransport{})})
     for (const GridReflection reflection :
          {GridReflection::Axis, GridReflection::Normal, GridReflection::Diffuse}) {
       LightGridSettings settings;
