@@ -53,7 +53,8 @@ ResidentSteps::Form ResidentSteps::formOf(StepExchange exchange, FieldFormat fie
 ResidentSteps::ResidentSteps(const gl::Program& program, const Form& form, glm::ivec3 gridSize)
     : program_(program),
       groups_((gridSize + form.tile - 1) / form.tile),
-      signals_(form.exchange == StepExchange::Tags ? 4 : int64_t{4} * (kSignalStride * groups() + 1),
+      // With tags `stuck` and one word, as a block that ends with an array has at least.
+      signals_(form.exchange == StepExchange::Tags ? 8 : int64_t{4} * (kSignalStride * groups() + 1),
                nullptr),
       // Of two steps; a tag is as long as what it is of.
       lights_(int64_t{2} * 3 * groupsOf(gridSize) * lightBytes(form.field) *

@@ -136,8 +136,8 @@ TEST_F(LightGridTest, CrevicesAreLitByWhatTheySee) {
     return error(indirect(scene, {{"reconstruction.weights.widest", widest}}).product, reference);
   };
   const double without = of(1);
-  EXPECT_LT(of(4), 0.97 * without);
-  EXPECT_EQ(error(indirect(scene, {}).product, reference), of(4));
+  EXPECT_LT(of(2), 0.97 * without);
+  EXPECT_EQ(error(indirect(scene, {}).product, reference), of(2));
 }
 
 }  // namespace

@@ -32,10 +32,10 @@ TEST_F(VoxelConeTracing, IsNearerToPathsThanNoLight) {
 }
 
 /// In a closed box that emits e and reflects a, each further bounce adds the same share of what the one
-/// before added, as all points see the same: a, if no cone lost light. Walls one voxel thick are not opaque
-/// to cones, whose steps read them between voxels: some of each cone leaves the box, a third at most, and
-/// none gains.
-TEST_F(VoxelConeTracing, LosesLessThanAThirdThroughTheWallsOfAClosedBox) {
+/// before added, as all points see the same: a, if no cone lost light. Cones read walls between voxels and in
+/// steps; of one along an axis 1 % passes, by the largest opacity. A fifth may be lost in all, and none is
+/// gained: the logarithm of opacity alone, which lets a seventh through along an axis, lost 29 %.
+TEST_F(VoxelConeTracing, LosesLittleThroughTheWallsOfAClosedBox) {
   const double emission = 0.5, albedo = 0.6;
   const scene::Scene box =
       makeScene("global_illumination/closed_box", {{"emission", emission}, {"albedo", albedo}});
@@ -46,7 +46,7 @@ TEST_F(VoxelConeTracing, LosesLessThanAThirdThroughTheWallsOfAClosedBox) {
     EXPECT_GT(term, 0.0) << bounces;
     if (bounces > 1) {
       EXPECT_LT(term / added, albedo) << bounces;
-      EXPECT_GT(term / added, 2.0 / 3.0 * albedo) << bounces;
+      EXPECT_GT(term / added, 0.8 * albedo) << bounces;
     }
     before = found, added = term;
   }
