@@ -10,6 +10,11 @@ uniform ivec2 sizePx;
 uniform uint sampleCount;
 #include "renderer/techniques/global_illumination/surface_light.glsl"
 
+float chance = 0.0;  // of the sample, in [0, 1)
+
+// A share of a sum in whole units, in the mean exact: of many small samples none would be left if each were rounded to the nearest.
+int wholeUnits(float value) { return int(floor(kInjectFixed * value + chance)); }
+
 // By the surface's normal, of any length.
 bool takesSample(vec3 front);
 void addSide(SurfacePoint point, vec3 albedo, float area);
@@ -19,6 +24,8 @@ void main() {
   if (gl_GlobalInvocationID.x >= uint(textureSize(samples, 0).x) || index >= sampleCount) return;
   const uvec4 texel = texelFetch(samples, ivec2(gl_GlobalInvocationID.xy), 0);
   const vec2 uv = uintBitsToFloat(texel.yz);
+  // Multiples of the golden ratio: neighbours' chances are spread evenly.
+  chance = float(index * 0x9e3779b9u >> 8) / 16777216.0;
   const vec3 weights = vec3(1.0 - uv.x - uv.y, uv);
   const uvec3 vertices = sceneTriangle(texel.x);
   const vec3 a = scenePosition(vertices.x), e1 = scenePosition(vertices.y) - a, e2 = scenePosition(vertices.z) - a;

@@ -18,8 +18,8 @@ void addSide(SurfacePoint point, vec3 albedo, float area) {
     if (weight == 0.0) continue;
     const int face = 2 * axis + (point.flatNormal[axis] > 0.0 ? 0 : 1);
     const uint first = kFaceSums * uint(voxel.x + gridSizeX * (voxel.y + gridSizeY * voxel.z)) + 4u * uint(face);
-    atomicAdd(faceSums[first], uint(round(kInjectFixed * weight)));
+    atomicAdd(faceSums[first], uint(wholeUnits(weight)));
     for (int channel = 0; channel < 3; ++channel)
-      atomicAdd(faceSums[first + 1u + uint(channel)], uint(round(kInjectFixed * weight * radiance[channel])));
+      atomicAdd(faceSums[first + 1u + uint(channel)], uint(wholeUnits(weight * radiance[channel])));
   }
 }

@@ -10,14 +10,16 @@ uniform float coneStart, coneStep, coneWidth;  // voxels; share of a cone's widt
 uniform int mostLevel;
 
 // Radiance and opacity along a direction over a way of so many voxels' widths. An axis has the opacity of a way along it; the
-// logarithms of what passes add up, each by the part of the way along its axis.
+// logarithms of what passes add up, each by the part of the way along its axis. Surfaces are a voxel thick, and their opacity a is
+// interpolated, a (1 - |d|) at a distance of d voxels: the depth g(a) of a way that adds up to -ln(1 - a) over them, twice the integral
+// of g(a x) over x from 0 to 1, is (a / (1 - a) - ln(1 - a)) / 2. With -ln(1 - a) itself walls would let a seventh through.
 vec4 radianceAt(vec3 at, vec3 direction, float level, float way) {
   const vec3 place = at / vec3(gridSize());
   // What comes along a direction has left faces turned against it.
   const vec4 x = direction.x < 0.0 ? textureLod(radiance[0], place, level) : textureLod(radiance[1], place, level);
   const vec4 y = direction.y < 0.0 ? textureLod(radiance[2], place, level) : textureLod(radiance[3], place, level);
   const vec4 z = direction.z < 0.0 ? textureLod(radiance[4], place, level) : textureLod(radiance[5], place, level);
-  const vec3 alpha = clamp(vec3(x.a, y.a, z.a), 0.0, 0.99), depth = -way * abs(direction) * log(1.0 - alpha);
+  const vec3 alpha = clamp(vec3(x.a, y.a, z.a), 0.0, 0.99), depth = 0.5 * way * abs(direction) * (alpha / (1.0 - alpha) - log(1.0 - alpha));
   const float all = depth.x + depth.y + depth.z;
   if (!(all > 1e-6)) return vec4(0.0);
   const vec3 colour = depth.x / max(x.a, 1e-6) * x.rgb + depth.y / max(y.a, 1e-6) * y.rgb + depth.z / max(z.a, 1e-6) * z.rgb;

@@ -55,7 +55,7 @@ class VoxelConeTracing : public Technique {
 
 const RegisteredTechnique<VoxelConeTracing> kVoxelConeTracingRegistered{
     {.name = "global_illumination/voxel_cone_tracing",
-     .version = 2,
+     .version = 3,
      .summary = "Light gathered by six cones a point through a pyramid of voxels",
      .source = "Crassin et al. 2011; a comparator for Gaitatzes 2012, chapter 5",
      .product = ProductKind::Colour,

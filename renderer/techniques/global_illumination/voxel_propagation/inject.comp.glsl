@@ -78,5 +78,5 @@ void addSide(SurfacePoint point, vec3 albedo, float area) {
   for (int channel = 0; channel < 3; ++channel)
     for (int c = 0; c < 4; ++c)
       imageAtomicAdd(sums, ivec3(start.xy, (4 * channel + c) * gridSizeZ + start.z),
-                     uint(int(round(kInjectFixed * radiance[channel] * lobe[c]))));
+                     uint(wholeUnits(radiance[channel] * lobe[c])));
 }

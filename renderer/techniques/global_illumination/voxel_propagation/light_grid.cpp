@@ -61,9 +61,7 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   for (int set = 0; set < sets; ++set) sumsOfAxis_.push_back(sums_->view(12 * size.z * set, 12 * size.z));
   const gl::Format format = settings.format == FieldFormat::Half ? gl::Format::RGBA16F : gl::Format::RGBA32F;
   source_.emplace(format, glm::ivec2(size), 1, 3 * size.z);
-  const bool continued = std::holds_alternative<UpdateOn>(settings.update) ||
-                         std::holds_alternative<UpdateAxes>(settings.update);
-  pairs_ = continued ? settings.generations() : 1;
+  pairs_ = settings.goesOn() ? settings.generations() : 1;
   fields_.emplace(format, glm::ivec2(size), 1, 6 * size.z * pairs_);
   if (settings.generations() > 1) reflected_.emplace(gl::Format::RGBA32F, glm::ivec2(size), 1, 3 * size.z);
   layerSums_ = gl::Buffer(int64_t{4} * 3 * size.z, nullptr);
@@ -82,27 +80,34 @@ LightGrid::LightGrid(frame::Frame& frame, const LightGridSettings& settings,
   }
   tryStepsAtOnce(frame);
   frame.passes().setBytesHeld(kVoxelizePass, volume_->bytes() + lightCells_->bytes());
-  frame.passes().setBytesHeld(kInjectPass, samples_->bytes() + sums_->bytes() + source_->bytes());
+  frame.passes().setBytesHeld(kInjectPass,
+                              samples_->bytes() + sums_->bytes() + source_->bytes() + counts_.bytes());
   frame.passes().setBytesHeld(kPropagatePass, fields_->bytes() + (reflected_ ? reflected_->bytes() : 0) +
+                                                  (shares_ ? shares_->bytes() : 0) +
+                                                  (settings_.steps.stopBelow > 0.0 ? changes_.bytes() : 0) +
                                                   (resident_ ? resident_->bytes() : 0));
   frame.passes().setBytesHeld(kArrivePass, arrived_->bytes());
 }
 
 void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
-  const StepDispatch wanted = settings_.steps.dispatch;
-  const bool needed = wanted == StepDispatch::Once;
-  if (wanted == StepDispatch::Each || settings_.iterations < 1 || settings_.steps.stopBelow > 0.0 ||
-      settings_.steps.sources == LightSources::Once)
+  const bool needed = std::holds_alternative<OneDispatch>(settings_.steps.dispatch);
+  if (std::holds_alternative<DispatchEach>(settings_.steps.dispatch) || settings_.iterations < 1 ||
+      settings_.steps.stopBelow > 0.0 || settings_.steps.sources == LightSources::Once)
     return;
-  const glm::ivec3 size = volume_->grid().resolution, tile = ResidentSteps::tileOf(size);
-  const glm::ivec3 groups = (size + tile - 1) / tile;
+  const StepExchange exchange = needed ? std::get<OneDispatch>(settings_.steps.dispatch).exchange
+                                       : std::get<FittingDispatch>(settings_.steps.dispatch).exchange;
+  const bool software = frame.context().device().software;
+  const glm::ivec3 size = volume_->grid().resolution;
+  const ResidentSteps::Form form = ResidentSteps::formOf(exchange, settings_.format, size, software);
+  const glm::ivec3 groups = (size + form.tile - 1) / form.tile;
   const std::string what = std::to_string(groups.x * groups.y * groups.z) + " groups";
   std::string reason;
-  if (frame.context().device().software && groups != glm::ivec3(1)) {
-    reason = "a software renderer does not run " + what + " at a time";
+  if (software && !needed && groups != glm::ivec3(1)) {
+    // Where it has the threads, they take turns on few processors.
+    reason = "a software renderer runs " + what + " at a time on request alone (dispatch: once)";
   } else {
-    residentProgram_ = &programs_->residentSteps(frame, tile);
-    resident_.emplace(*residentProgram_, size, tile, source_->format());
+    residentProgram_ = &programs_->residentSteps(frame, form);
+    resident_.emplace(*residentProgram_, form, size);
     lightCells_->clearUint(glm::uvec4(0));
     fields_->clear(glm::vec4(0.0F));
     source_->clear(glm::vec4(0.0F));
@@ -126,12 +131,6 @@ void LightGrid::checkSteps() const {
     throw Error(
         "groups of a dispatch waited for each other in vain, so that light is missing: another program may "
         "have used the GPU; run it again, or with steps: {dispatch: each}");
-}
-
-int64_t LightGrid::bytes() const {
-  return volume_->bytes() + samples_->bytes() + sums_->bytes() + source_->bytes() + fields_->bytes() +
-         lightCells_->bytes() + arrived_->bytes() + (reflected_ ? reflected_->bytes() : 0) +
-         (resident_ ? resident_->bytes() : 0);
 }
 
 void LightGrid::update(frame::Frame& frame) {
@@ -267,6 +266,7 @@ void LightGrid::restartSteps(bool lasting, const gl::Texture& source) {
        {programs_->arrive, programs_->propagate, programs_->reflect, residentProgram_}) {
     if (!program) continue;
     volume_->configure(*program);
+    programs_->setTransport(*program);
     program->set("from", reading());
     program->set("lasting", lasting ? 1 : 0);
   }

@@ -41,7 +41,6 @@ class LightGrid {
   const gl::Texture& lightCells() const { return *lightCells_; }
   /// That the frame's rays are traced through; null: the one that the scene keeps.
   const ray_tracing::RayTree* tree() const { return rays_.tree(); }
-  int64_t bytes() const;
 
   /// Steps apart, for counting and tests: voxels and sources of the frame, all made anew; one step of light
   /// that was put in once.

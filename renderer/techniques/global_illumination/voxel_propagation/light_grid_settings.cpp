@@ -8,6 +8,15 @@ namespace {
 
 constexpr const char* kTransportSource = "Gaitatzes 2012, section 5.5.2, equation 11";
 
+template <class S>
+SettingsTable<S> exchangeTable() {
+  return {
+      {&S::exchange, "exchange",
+       "How groups tell each other their lights after a step, with the same result; the time of tags has not "
+       "been measured on a GPU",
+       "the bench's own"}};
+}
+
 }  // namespace
 
 const SettingsTable<ConeTransport>& ConeTransport::table() {
@@ -73,6 +82,14 @@ const SettingsTable<LimitedBounces>& LimitedBounces::table() {
        "Gaitatzes 2012, section 5.6 (2)"}};
   return kTable;
 }
+const SettingsTable<FittingDispatch>& FittingDispatch::table() {
+  static const SettingsTable<FittingDispatch> kTable = exchangeTable<FittingDispatch>();
+  return kTable;
+}
+const SettingsTable<OneDispatch>& OneDispatch::table() {
+  static const SettingsTable<OneDispatch> kTable = exchangeTable<OneDispatch>();
+  return kTable;
+}
 const SettingsTable<StepSettings>& StepSettings::table() {
   using S = StepSettings;
   static const SettingsTable<S> kTable = {
@@ -90,9 +107,14 @@ const SettingsTable<StepSettings>& StepSettings::table() {
   return kTable;
 }
 void StepSettings::check() const {
-  if (dispatch == StepDispatch::Once && (sources == LightSources::Once || stopBelow > 0.0))
+  if (std::holds_alternative<OneDispatch>(dispatch) && (sources == LightSources::Once || stopBelow > 0.0))
     throw Error("'dispatch: once' is for steps of a lasting source that do not stop early", "dispatch",
                 "leave out 'dispatch', or give sources: steady and stop_below: 0");
+}
+void LightGridSettings::check() const {
+  if (goesOn() && steps.sources == LightSources::Once)
+    throw Error("light that goes on from frame to frame and is put in once is that of the first frame",
+                "update", "leave out 'update', or give steps: {sources: steady}");
 }
 const SettingsTable<LightGridSettings>& LightGridSettings::table() {
   using S = LightGridSettings;

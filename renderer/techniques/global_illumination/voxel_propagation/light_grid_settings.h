@@ -99,15 +99,29 @@ struct UpdateOn {
 };
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
-/// How steps are given to the GPU; all with the same result.
-enum class StepDispatch {
-  Fitting,  ///< once where that works, else each
-  Once,     ///< all in one, whose groups wait for each other
-  Each
+/// How groups of one dispatch tell each other their lights after a step, with the same result.
+enum class StepExchange {
+  Signals,  ///< a signal of each group, between memory barriers
+  Tags      ///< words of light that bear the step; no signal, no memory barrier, one barrier a step
 };
-constexpr EnumNames<StepDispatch, 3> enumNames(StepDispatch) {
-  return {{{{StepDispatch::Fitting, "fitting"}, {StepDispatch::Once, "once"}, {StepDispatch::Each, "each"}}}};
+constexpr EnumNames<StepExchange, 2> enumNames(StepExchange) {
+  return {{{{StepExchange::Signals, "signals"}, {StepExchange::Tags, "tags"}}}};
 }
+/// How steps are given to the GPU, with the same result.
+struct FittingDispatch {
+  static constexpr const char *kKind = "fitting", *kSummary = "all in one where that works, else one each";
+  StepExchange exchange = StepExchange::Signals;
+  static const SettingsTable<FittingDispatch>& table();
+};
+struct OneDispatch {
+  static constexpr const char *kKind = "once", *kSummary = "all in one, whose groups wait for each other";
+  StepExchange exchange = StepExchange::Signals;
+  static const SettingsTable<OneDispatch>& table();
+};
+struct DispatchEach {
+  static constexpr const char *kKind = "each", *kSummary = "one each";
+};
+using StepDispatch = std::variant<FittingDispatch, OneDispatch, DispatchEach>;
 
 /// How often light is reflected.
 struct AllBounces {
@@ -126,7 +140,7 @@ using GridBounces = std::variant<AllBounces, LimitedBounces>;
 
 struct StepSettings {
   LightSources sources = LightSources::Steady;
-  StepDispatch dispatch = StepDispatch::Fitting;
+  StepDispatch dispatch;
   double stopBelow = 0.0;
   static const SettingsTable<StepSettings>& table();
   void check() const;
@@ -145,6 +159,11 @@ struct LightGridSettings {
   GridBounces bounces;
   InjectionSettings injection;
   static const SettingsTable<LightGridSettings>& table();
+  void check() const;
+  /// Whether the field goes on from frame to frame.
+  bool goesOn() const {
+    return std::holds_alternative<UpdateOn>(update) || std::holds_alternative<UpdateAxes>(update);
+  }
   /// Fields that light goes through one after another.
   int generations() const {
     const auto* limited = std::get_if<LimitedBounces>(&bounces);

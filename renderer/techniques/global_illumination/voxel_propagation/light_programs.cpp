@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "renderer/techniques/global_illumination/surface_light.h"
-#include "renderer/techniques/global_illumination/voxel_propagation/resident_steps.h"
 
 namespace limen::techniques {
 namespace {
@@ -21,17 +20,6 @@ void setCone(const gl::Program& program, double halfAngleDeg, double scale) {
   program.set("coneSlope", static_cast<float>(0.75 * (1.0 - cosine * cosine)));
   program.set("coneDirection", static_cast<float>(0.5 * (1.0 + cosine)));
   program.set("coneScale", static_cast<float>(scale));
-}
-
-void setTransport(const gl::Program& program, const LightTransport& transport) {
-  if (const auto* cones = std::get_if<ConeTransport>(&transport)) {
-    const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
-    setCone(program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
-  } else if (const auto* components = std::get_if<ComponentTransport>(&transport)) {
-    // So that six neighbours of equal light keep it.
-    setCone(program, components->halfAngleDeg,
-            1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
-  }
 }
 
 }  // namespace
@@ -71,10 +59,10 @@ LightPrograms::LightPrograms(frame::Frame& frame, const LightGridSettings& setti
   propagate = &step(frame, "propagate.comp.glsl", defines);
 }
 
-const gl::Program& LightPrograms::residentSteps(frame::Frame& frame, glm::ivec3 tile) const {
+const gl::Program& LightPrograms::residentSteps(frame::Frame& frame, const ResidentSteps::Form& form) const {
   gl::ShaderDefines defines = stepDefines_;
-  ResidentSteps::define(defines, tile);
-  return step(frame, "propagate_resident.comp.glsl", defines);
+  form.define(defines);
+  return step(frame, form.shader(), defines);
 }
 
 const gl::Program& LightPrograms::arriveAfterResident(frame::Frame& frame) const {
@@ -85,9 +73,18 @@ const gl::Program& LightPrograms::arriveAfterResident(frame::Frame& frame) const
 
 const gl::Program& LightPrograms::step(frame::Frame& frame, const char* shader,
                                        const gl::ShaderDefines& defines) const {
-  const gl::Program& program = frame.context().programs().compute(kLightGridFolder + shader, defines);
-  setTransport(program, transport_);
-  return program;
+  return frame.context().programs().compute(kLightGridFolder + shader, defines);
+}
+
+void LightPrograms::setTransport(const gl::Program& program) const {
+  if (const auto* cones = std::get_if<ConeTransport>(&transport_)) {
+    const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(glm::radians(cones->halfAngleDeg)));
+    setCone(program, cones->halfAngleDeg, cones->normalised ? 1.0 : solidAngle);
+  } else if (const auto* components = std::get_if<ComponentTransport>(&transport_)) {
+    // So that six neighbours of equal light keep it.
+    setCone(program, components->halfAngleDeg,
+            1.0 / (3.0 * (1.0 - std::cos(glm::radians(components->halfAngleDeg)))));
+  }
 }
 
 }  // namespace limen::techniques

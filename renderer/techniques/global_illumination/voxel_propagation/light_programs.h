@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_paths.h"
 #include "renderer/gl/program.h"
 #include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/resident_steps.h"
 #include "renderer/voxels/volume.h"
 
 namespace limen::techniques {
@@ -19,10 +18,13 @@ class LightPrograms {
 
   const gl::Program *inject = nullptr, *cells = nullptr, *seed = nullptr, *propagate = nullptr,
                     *reflect = nullptr, *arrive = nullptr, *flux = nullptr;
-  /// propagate_resident.comp.glsl for groups of this many voxels.
-  const gl::Program& residentSteps(frame::Frame& frame, glm::ivec3 tile) const;
+  /// All steps in one dispatch.
+  const gl::Program& residentSteps(frame::Frame& frame, const ResidentSteps::Form& form) const;
   /// In place of `arrive`: light is not a number once groups of the above have got stuck.
   const gl::Program& arriveAfterResident(frame::Frame& frame) const;
+  /// How light leaves a voxel, of a program that steps, reflects or arrives. Grids of other cones may share
+  /// it.
+  void setTransport(const gl::Program& program) const;
 
  private:
   const gl::Program& step(frame::Frame& frame, const char* shader, const gl::ShaderDefines& defines) const;

@@ -34,6 +34,8 @@ float cornerShare(vec3 part, ivec3 upper) {
 }
 
 #if INTERPOLATION == INTERPOLATION_VISIBLE
+uniform int widest;  // voxels around that are looked at for light of crevices
+
 // Whether no surface is between a point and the middle of the empty voxel beyond a face.
 bool seesVoxel(SurfacePoint point, ivec3 voxel) {
   const vec3 middle = gridOrigin + (vec3(voxel) + 0.5) * voxelSize;
@@ -63,8 +65,9 @@ bool isSurelySeen(Surroundings near, ivec3 voxel, int face) {
 }
 #endif
 
-// Mean light at one face of the voxels around; alpha: 0 where there is none.
-vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
+// Mean light at one face of the voxels around; alpha: 0 where there is none. `wide`: of a point for which there was none, as in
+// crevices lower than a voxel, the nearest light farther around.
+vec4 lightAtFace(SurfacePoint point, vec3 at, int face, bool wide) {
   const ivec3 low = ivec3(floor(at)), last = gridSize() - 1;
   const vec3 part = at - vec3(low);
   // All that the 8 voxels hold at once: what is fetched one after another is waited for one after another.
@@ -98,20 +101,30 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
     sum += share * vec4(light.rgb, 1.0);
   }
 #if INTERPOLATION == INTERPOLATION_VISIBLE
-  // The doubtful ones that the point sees; if there is none at all, the nearest seen of those farther around. One place in the shader
-  // traces rays, as each takes many registers.
+  // The doubtful ones that the point sees; if there is none at all, the nearest seen of those farther around, in ever wider cubes. One
+  // place in the shader traces rays, as each takes many registers.
   const ivec3 own = ivec3(floor(at + 0.5));
   float nearest = 1e30;
-  for (int i = doubtful != 0u ? 0 : 8; i < 8 + 27; ++i) {
+  int reach = wide ? 2 : 1, side = 2 * reach + 1;
+  if (wide) sum = vec4(0.0);
+  for (int i = doubtful != 0u && !wide ? 0 : 8;; ++i) {
+    if (i >= 8 + side * side * side) {
+      if (!wide || nearest < 1e29 || reach >= widest) break;
+      ++reach, side += 2, i = 8;
+    }
     const bool around = i >= 8;
     if (around ? sum.a > 1e-4 && nearest > 1e29 : (doubtful >> i & 1u) == 0u) {
       if (around) break;
       continue;
     }
     const int j = i - 8;
-    const ivec3 upper = ivec3(i & 1, i >> 1 & 1, i >> 2), voxel = around ? own + ivec3(j % 3, j / 3 % 3, j / 9) - 1 : low + upper;
+    const ivec3 upper = ivec3(i & 1, i >> 1 & 1, i >> 2), from = ivec3(j % side, j / side % side, j / (side * side)) - reach;
+    const ivec3 voxel = around ? own + from : low + upper;
     const vec3 away = vec3(voxel) - at;
     if (around && (dot(away, away) >= nearest || !isInGrid(voxel))) continue;
+    if (wide && (max(max(abs(from.x), abs(from.y)), abs(from.z)) < reach ||
+                 !(dot(away + vec3(faceStep(face)), point.flatNormal) > 0.0)))
+      continue;
     vec4 light = lightOf(voxel, face);
     if (light.a == 0.0 || !seesVoxel(point, voxel + faceStep(face))) continue;
 #if GATHER == GATHER_REFLECTED
@@ -128,34 +141,6 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face) {
   return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
-#if INTERPOLATION != INTERPOLATION_ALL
-uniform int widest;  // voxels around that are looked at
-
-// Of a point that has no light around it, as in crevices lower than a voxel: the nearest light at this face whose empty voxel is in
-// front of the surface, in ever wider cubes of voxels.
-vec4 nearestLight(SurfacePoint point, vec3 at, int face) {
-  const ivec3 own = ivec3(floor(at + 0.5));
-  vec4 found = vec4(0.0);
-  float nearest = 1e30;
-  for (int reach = 1; reach <= widest && found.a == 0.0; ++reach) {
-    const int side = 2 * reach + 1;
-    for (int i = 0; i < side * side * side; ++i) {
-      const ivec3 away = ivec3(i % side, i / side % side, i / (side * side)) - reach, voxel = own + away;
-      const vec3 towards = vec3(voxel + faceStep(face)) - at;
-      if (!isInGrid(voxel) || dot(towards, towards) >= nearest || !(dot(towards, point.flatNormal) > 0.0)) continue;
-      vec4 light = lightOf(voxel, face);
-      if (light.a == 0.0) continue;
-#if GATHER == GATHER_REFLECTED
-      light.rgb *= texelFetch(volumeAlbedo, voxel, 0).rgb;
-#endif
-      nearest = dot(towards, towards);
-      found = vec4(light.rgb, 1.0);
-    }
-  }
-  return found;
-}
-#endif
-
 vec3 indirectLight(SurfacePoint point, vec3 albedo) {
   const vec3 at = toVoxels(point.position) - 0.5;
   vec3 result = vec3(0.0);
@@ -168,23 +153,27 @@ vec3 indirectLight(SurfacePoint point, vec3 albedo) {
   for (int face = 0; face < 6; ++face)
     if (faceWeight(dot(point.flatNormal, vec3(faceStep(face)))) != 0.0) faces |= 1u << face;
   // Not unrolled, so that rays stay in one place.
-  for (uint left = faces; left != 0u; left &= left - 1u) {
+  uint left = faces;
+  bool wide = false;
+  for (;;) {
+    if (left == 0u) {
+#if INTERPOLATION == INTERPOLATION_VISIBLE
+      if (wide || found || widest < 2) break;
+      wide = true;
+      left = faces;
+      continue;
+#else
+      break;
+#endif
+    }
     const int face = findLSB(left);
+    left &= left - 1u;
     const float weight = faceWeight(dot(point.flatNormal, vec3(faceStep(face))));
-    const vec4 light = lightAtFace(point, at, face);
+    const vec4 light = lightAtFace(point, at, face, wide);
     result += weight * light.rgb;
     known += weight * light.a;
     found = found || light.a > 0.0;
   }
-#if INTERPOLATION != INTERPOLATION_ALL
-  for (uint left = found ? 0u : faces; left != 0u; left &= left - 1u) {
-    const int face = findLSB(left);
-    const float weight = faceWeight(dot(point.flatNormal, vec3(faceStep(face))));
-    const vec4 light = nearestLight(point, at, face);
-    result += weight * light.rgb;
-    known += weight * light.a;
-  }
-#endif
 #if GATHER == GATHER_FACES
   return known > 1e-4 ? albedo * result / (known * 3.14159265) : vec3(0.0);
 #else

@@ -8,26 +8,36 @@
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
-#include "renderer/gl/texture.h"
+#include "renderer/techniques/global_illumination/voxel_propagation/light_grid_settings.h"
 
 namespace limen::techniques {
 
-/// All steps of light in one dispatch, whose groups wait for those around them after each step
-/// (propagate_resident.comp.glsl). That takes a GPU that runs all groups at a time, which OpenGL neither
-/// promises nor tells: each grid is tried before it is used, and waiting in vain ends, is kept as a fact, and
-/// makes all light that arrives not a number.
+/// All steps of light in one dispatch, whose groups wait for those around them after each step, for signals
+/// (propagate_resident.comp.glsl) or for words that bear the step (propagate_tagged.comp.glsl). That takes a
+/// GPU that runs all groups at a time, which OpenGL neither promises nor tells: each grid is tried before it
+/// is used, and waiting in vain ends, is kept as a fact, and makes all light that arrives not a number.
 class ResidentSteps {
  public:
-  /// Voxels of a group along each axis: the whole of a small grid.
-  static glm::ivec3 tileOf(glm::ivec3 gridSize);
-  /// Adds what the shader is compiled with.
-  static void define(gl::ShaderDefines& defines, glm::ivec3 tile);
+  /// What shaders are compiled for.
+  struct Form {
+    StepExchange exchange = StepExchange::Signals;
+    FieldFormat field = FieldFormat::Half;
+    glm::ivec3 tile{1};  ///< voxels of a group along each axis: the whole of a small grid
+    /// Of lights in shared memory: two, one of which is read while the other is written, where tags leave no
+    /// other reason to wait and there is room; else one.
+    int shells = 1;
+    bool threads = false;  ///< groups are a software renderer's threads
+    const char* shader() const;
+    void define(gl::ShaderDefines& defines) const;
+  };
+  static Form formOf(StepExchange exchange, FieldFormat field, glm::ivec3 gridSize, bool software);
 
-  ResidentSteps(const gl::Program& program, glm::ivec3 gridSize, glm::ivec3 tile, gl::Format field);
+  ResidentSteps(const gl::Program& program, const Form& form, glm::ivec3 gridSize);
 
   int64_t groups() const { return int64_t{groups_.x} * groups_.y * groups_.z; }
   int64_t bytes() const { return signals_.bytes() + lights_.bytes(); }
-  /// From one field to another; all else is set and bound as for a step. Steps: at least 1.
+  /// From one field to another; all else is set and bound as for a step. Steps: at least 1, the same number
+  /// in all frames.
   void run(int from, int to, int steps);
   /// Some steps of whatever the fields hold, to find out whether groups get stuck. Waits for the GPU.
   bool works();
@@ -42,7 +52,10 @@ class ResidentSteps {
   const gl::Program& program_;
   glm::ivec3 groups_;
   gl::Buffer signals_, lights_;
-  uint32_t firstSignal_ = 0;
+  uint32_t pollsOfTrial_, pollsOfFrame_;
+  /// Some steps before it wraps, in 16 bits as in 32, so that it does so in every use soon after the trial.
+  static constexpr uint32_t kFirstSignal = ~0U - 99U;
+  uint32_t firstSignal_ = kFirstSignal;
 };
 
 }  // namespace limen::techniques

@@ -16,10 +16,11 @@ struct SurfaceSample {
   double area = 0.0;         ///< world units squared
 };
 
-/// Points on all triangles of finite area: each is cut into rows parallel to its longest side, and these into
-/// parts of equal area; rows are at most `spacing` high, parts at half their height as wide. Each is one
-/// sample at its middle, so that the areas of a triangle's samples sum to its own. At most `mostSamples` in
-/// all: a wider spacing is taken where more were needed.
+/// Points on all triangles of finite area: each is cut into rows parallel to its longest side, at most
+/// `spacing` high, and these across into slices of equal length, which is at most `spacing` of a row's width
+/// at half its height. Each is one sample at its centre of mass with its area, so that areas of a triangle's
+/// samples sum to its own, and their centre is its own, however slender it is. At most `mostSamples` in all:
+/// a wider spacing is taken where more were needed.
 std::vector<SurfaceSample> sampleSurfaces(const scene::Scene& scene, double spacing, size_t mostSamples);
 
 /// The same as texels of an RGBA32UI texture: triangle, the two coordinates and the area over `unitArea`, of

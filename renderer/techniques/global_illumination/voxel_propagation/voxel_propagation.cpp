@@ -35,37 +35,30 @@ namespace {
 
 constexpr const char* kVoxelReconstructPass = "global_illumination/reconstruct";
 
-/// Of a point that has no light around it, as in crevices lower than a voxel. None by default: light from
-/// farther away is too bright there, by more than none is too dark.
-constexpr int kWidestDefault = 0;
-template <class S>
-SettingsTable<S> widestTable() {
-  return {{&S::widest,
-           "widest",
-           {0, 4},
-           "voxels",
-           "Around a point that has no light otherwise, as in crevices lower than a voxel, within which the "
-           "nearest voxel lights it; 0: it gets none",
-           "the bench's own"}};
-}
 struct VisibleWeights {
   static constexpr const char *kKind = "visible",
                               *kSummary =
                                   "occupied voxels whose lit faces a ray finds, where another wall is near";
-  int widest = kWidestDefault;
+  /// Light of the nearest voxel seen within 2 errs 3 % less than none in the mean of 11 scenes with such
+  /// points, from 13 % less to 5 % more, and within 4 by 4 %, at several times the rays. That of the nearest
+  /// voxel, whether seen or not, is too bright in corners.
+  int widest = 2;
   static const SettingsTable<VisibleWeights>& table() {
-    static const SettingsTable<VisibleWeights> kTable = widestTable<VisibleWeights>();
+    using S = VisibleWeights;
+    static const SettingsTable<S> kTable = {{&S::widest,
+                                             "widest",
+                                             {1, 4},
+                                             "voxels",
+                                             "Around a point that has no light otherwise, as in crevices "
+                                             "lower than a voxel, within which the nearest "
+                                             "voxel whose lit face it sees lights it",
+                                             "the bench's own"}};
     return kTable;
   }
 };
 struct OccupiedWeights {
   static constexpr const char *kKind = "occupied",
                               *kSummary = "occupied voxels; light behind a thin wall leaks past it";
-  int widest = kWidestDefault;
-  static const SettingsTable<OccupiedWeights>& table() {
-    static const SettingsTable<OccupiedWeights> kTable = widestTable<OccupiedWeights>();
-    return kTable;
-  }
 };
 struct AllWeights {
   static constexpr const char *kKind = "all", *kSummary = "all voxels, as if empty ones were dark surfaces";
@@ -78,12 +71,6 @@ void defineWeights(gl::ShaderDefines& defines, const GatherWeights& weights) {
     defines["INTERPOLATION_" + std::string(name)] = std::to_string(number++);
   defines["INTERPOLATION"] = std::to_string(weights.index());
 }
-int widestOf(const GatherWeights& weights) {
-  if (const auto* visible = std::get_if<VisibleWeights>(&weights)) return visible->widest;
-  const auto* occupied = std::get_if<OccupiedWeights>(&weights);
-  return occupied ? occupied->widest : 0;
-}
-
 enum class GatherForm {
   Faces,     ///< light at each face, by the squares of the normal's components
   Incident,  ///< lobes that have arrived (Gaitatzes 2012, equation 14)
@@ -145,7 +132,8 @@ class VoxelPropagation : public Technique {
         frame,
         [&](const gl::Program& program) {
           light_->volume().configure(program);
-          program.set("widest", widestOf(settings_.reconstruction.weights));
+          if (const auto* visible = std::get_if<VisibleWeights>(&settings_.reconstruction.weights))
+            program.set("widest", visible->widest);
           light_->arrived().bindTexture(kReconstructArrivedUnit);
           light_->lightCells().bindTexture(kLightCellsUnit);
         },
@@ -156,6 +144,7 @@ class VoxelPropagation : public Technique {
 
   std::vector<std::string> remarks() const override {
     if (!light_ || light_->stepsRemark().empty()) return {};
+    light_->checkSteps();  // asked for again after the last frame
     return {light_->stepsRemark()};
   }
 
@@ -181,7 +170,7 @@ class VoxelPropagation : public Technique {
             {"last_gain", last},
             {"remaining_flux", injected > 0.0 ? before / injected : 0.0},
             {"homeless_samples", double(light_->homeless())},
-            {"voxel_steps", double(grid.count()) * settings_.grid.iterations}};
+            {"voxel_steps", double(grid.count()) * settings_.grid.iterations * settings_.grid.generations()}};
   }
 
  private:
@@ -192,7 +181,7 @@ class VoxelPropagation : public Technique {
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
     {.name = "global_illumination/voxel_propagation",
-     .version = 3,
+     .version = 4,
      .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
      .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
      .product = ProductKind::Colour,
@@ -208,7 +197,8 @@ const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
           Direction::LowerIsBetter},
          {"homeless_samples", "Samples of surfaces whose light found no empty voxel", "",
           Direction::LowerIsBetter},
-         {"voxel_steps", "Voxels times steps", "", Direction::LowerIsBetter}}}};
+         {"voxel_steps", "Voxels times steps, of all bounces that have fields of their own", "",
+          Direction::LowerIsBetter}}}};
 
 }  // namespace
 }  // namespace limen::techniques
