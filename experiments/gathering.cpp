@@ -119,7 +119,8 @@ void gatherSubmission(const Submission& submission, const std::string& store, co
     const std::string path = taskStore(submission, task);
     try {
       if (!fs::exists(path) || store::isUnwritten(path)) continue;
-      added += results.merge(store::Store(path, store::Access::ReadOnly));
+      // Nobody but the task writes its files, and it replaces them: they need not be on the disk twice.
+      added += results.merge(store::Store(path, store::Access::ReadOnly), store::Store::Files::Shared);
     } catch (const Error& error) {
       reportSweepFailure(error);
       whole = false;

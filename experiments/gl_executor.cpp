@@ -15,6 +15,7 @@
 #include "experiments/first_picture.h"
 #include "experiments/frame_path.h"
 #include "experiments/frame_timing.h"
+#include "experiments/gl_devices.h"
 #include "experiments/gpu_clock.h"
 #include "experiments/live_run.h"
 #include "experiments/measured_quantities.h"
@@ -57,7 +58,7 @@ class GlExecutor : public Executor {
  public:
   GlExecutor(const std::string& folder, const std::string& references)
       : folder_(folder),
-        context_(gl::createHeadlessContext()),
+        context_(takeContext()),
         metricGpu_(*context_),
         clock_(*context_),
         references_(references) {

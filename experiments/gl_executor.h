@@ -3,18 +3,15 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "experiments/executor.h"
 
 namespace limen::experiments {
 
 /// Renders runs in a headless OpenGL context. Pictures go to `resultsFolder`/artefacts, reference products to
-/// `referencesFolder`. Throws Error if there is no OpenGL 4.5.
+/// `referencesFolder`. On the device that openDevice() has opened (gl_devices.h), if any. Throws Error if
+/// there is no OpenGL 4.5.
 std::unique_ptr<Executor> makeGlExecutor(const std::string& resultsFolder,
                                          const std::string& referencesFolder);
-
-/// What --device can choose, by index. Throws Error without EGL.
-std::vector<SweepDevice> listDevices();
 
 }  // namespace limen::experiments

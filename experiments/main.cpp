@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/base/cores.h"
+#include "experiments/gl_devices.h"
 #include "experiments/gl_executor.h"
 #include "experiments/sweep.h"
 #include "renderer/catalogue.h"
@@ -7,7 +8,7 @@
 int main(int argc, char** argv) {
   using namespace limen::experiments;
   limen::keepFreedMemory();
-  return sweepMain(
-      argc, argv,
-      {"limen-sweep", [] { return *limen::catalogueFromRegistries(); }, makeGlExecutor, listDevices});
+  return sweepMain(argc, argv,
+                   {"limen-sweep", [] { return *limen::catalogueFromRegistries(); }, makeGlExecutor,
+                    listDevices, listUnopenedDevices, openDevice});
 }

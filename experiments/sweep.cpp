@@ -234,9 +234,20 @@ int parseAndSweep(int argc, char** argv, const SweepProgram& program) {
   std::vector<std::string> command(argv, argv + argc);
   command[0] = program.name;
   try {
-    const bool measures =
-        parsed.options.command == SweepOptions::Command::Job && parsed.options.jobVerb == "measure";
-    const SweepOptions options = measures ? optionsOfTask(parsed.options) : parsed.options;
+    SweepOptions options = parsed.options;
+    const bool isJob = options.command == SweepOptions::Command::Job;
+    if (isJob && options.jobVerb == "stand_by") {
+      const std::optional<SweepOptions> told = standBy(program, options);
+      if (!told) return kExitSuccess;
+      options = *told;
+      command = {program.name,
+                 "job",
+                 "measure",
+                 options.jobFolder,
+                 fmt::format("--task={}", options.jobTask),
+                 "--device=" + options.device};
+    }
+    if (isJob && options.jobVerb == "measure") options = optionsOfTask(options);
     if (!options.device.empty()) setenv("LIMEN_EGL_DEVICE", options.device.c_str(), 1);
     return Sweeper(program, options, std::move(command)).run();
   } catch (const Error& error) {

@@ -22,6 +22,10 @@ struct SweepProgram {
       makeExecutor;
   /// The devices that --device can choose, by their indices; null: there are none.
   std::function<std::vector<SweepDevice>()> devices = {};
+  /// The same as far as it is known without opening any: without names.
+  std::function<std::vector<SweepDevice>()> unopenedDevices = {};
+  /// Opens the one that --device names, for the executor that is made next. Throws Error.
+  std::function<SweepDevice()> openDevice = {};
 };
 
 /// The command line of `limen sweep`. Returns the exit code: 0; 1 for failed runs, broken expectations or a

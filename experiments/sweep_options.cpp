@@ -110,8 +110,10 @@ CLI::App* addStatus(CLI::App& app, SweepOptions& options) {
 CLI::App* addJob(CLI::App& app, SweepOptions& options) {
   CLI::App* const job = app.add_subcommand("job", "");
   job->group("");
-  job->add_option("verb", options.jobVerb)->required()->check(CLI::IsMember({"task", "measure", "merge"}));
-  job->add_option("folder", options.jobFolder)->required();
+  job->add_option("verb", options.jobVerb)
+      ->required()
+      ->check(CLI::IsMember({"task", "measure", "merge", "stand_by"}));
+  job->add_option("folder", options.jobFolder);
   job->add_option("--task", options.jobTask);
   job->add_option("--parent", options.jobParent);
   job->add_option("--device", options.device);

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "experiments/base/error.h"
 
@@ -89,7 +91,10 @@ class Keeper {
   std::vector<int> run() {
     children_.assign(programs_.size(), 0);
     statuses_.assign(programs_.size(), 127);
-    for (size_t i = 0; i < programs_.size(); ++i) start(i);
+    for (size_t i = 0; i < programs_.size(); ++i) {
+      children_[i] = programs_[i].started;
+      if (children_[i] == 0) start(i);
+    }
     auto nextTick = steady_clock::now() + std::chrono::seconds(1);
     while (std::any_of(children_.begin(), children_.end(), [](pid_t child) { return child != 0; })) {
       const timespec wait{0, 200'000'000};
@@ -208,6 +213,58 @@ int runAndWait(const std::vector<std::string>& words, bool quiet) {
   if (quiet) files.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
   const pid_t child = spawn(words, files);
   return child == 0 ? 127 : waitFor(child);
+}
+
+SpokenTo::SpokenTo(const std::vector<std::string>& words) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw Error("cannot be started: " + std::system_category().message(errno), words.at(0),
+                "close some programs");
+  FileActions files;
+  files.copy(ends[1], STDIN_FILENO);
+  files.copy(ends[1], STDOUT_FILENO);
+  process_ = spawn(words, files);
+  end_ = ends[0];
+  close(ends[1]);
+  if (process_ != 0) return;
+  close(end_);
+  throw Error("cannot be started", words.at(0), "see that the file is there and may be executed");
+}
+
+SpokenTo::SpokenTo(SpokenTo&& other) noexcept
+    : process_(std::exchange(other.process_, 0)), end_(std::exchange(other.end_, -1)) {}
+
+SpokenTo::~SpokenTo() {
+  if (process_ == 0) return;
+  kill(process_, SIGTERM);
+  waitFor(release());
+}
+
+std::optional<std::string> SpokenTo::read() {
+  std::string line;
+  for (char c = 0;;) {
+    const ssize_t count = recv(end_, &c, 1, 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return std::nullopt;
+    if (c == '\n') return line;
+    line += c;
+  }
+}
+
+bool SpokenTo::write(const std::string& line) {
+  const std::string text = line + "\n";
+  for (size_t sent = 0; sent < text.size();) {
+    const ssize_t count = send(end_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    sent += static_cast<size_t>(count);
+  }
+  return true;
+}
+
+pid_t SpokenTo::release() {
+  close(std::exchange(end_, -1));
+  return std::exchange(process_, 0);
 }
 
 std::vector<int> keepRunning(const std::vector<KeptProgram>& programs,

@@ -33,7 +33,8 @@ int runAndWait(const std::vector<std::string>& words, bool quiet);
 /// One of several programs that are kept running.
 struct KeptProgram {
   std::vector<std::string> words;
-  std::string log;  ///< file that its output is added to; "": where this process writes
+  std::string log;    ///< file that its output is added to; "": where this process writes
+  pid_t started = 0;  ///< a child of this process that is to be kept as if started with `words`; 0: none yet
 };
 
 /// Runs programs side by side until all have ended. One that a signal ended is started again while
@@ -43,6 +44,28 @@ struct KeptProgram {
 std::vector<int> keepRunning(const std::vector<KeptProgram>& programs,
                              const std::function<bool(size_t index)>& again,
                              const std::function<void()>& tick = {}, int* stopped = nullptr);
+
+/// A child of this process whose standard input and output it holds the other end of.
+class SpokenTo {
+ public:
+  /// Starts a program. Throws Error if it cannot be started.
+  explicit SpokenTo(const std::vector<std::string>& words);
+  /// Ends it, unless released.
+  ~SpokenTo();
+  SpokenTo(SpokenTo&& other) noexcept;
+  SpokenTo& operator=(SpokenTo&&) = delete;
+
+  /// Waits for a line that it writes; nothing if it ends before.
+  std::optional<std::string> read();
+  /// False if it has ended.
+  bool write(const std::string& line);
+  /// Leaves it to the caller, who waits for its end; the other end is closed.
+  pid_t release();
+
+ private:
+  pid_t process_ = 0;
+  int end_ = -1;
+};
 
 /// From now on this process gets SIGTERM when the one that started it ends; ends at once if that has already
 /// happened. `parent`: its id.

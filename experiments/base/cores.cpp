@@ -2,6 +2,7 @@
 #include "experiments/base/cores.h"
 
 #include <malloc.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,11 +13,19 @@ namespace {
 
 std::atomic<size_t> processesHere = 1;
 
+/// Those that this process may run on.
+size_t processors() {
+  cpu_set_t set;
+  // A machine with more than a set takes is not asked about.
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<size_t>(CPU_COUNT(&set));
+  return std::thread::hardware_concurrency();
+}
+
 }  // namespace
 
 size_t cores() {
-  // Asked once: the answer is read from files.
-  static const size_t kProcessors = std::thread::hardware_concurrency();
+  // Asked once. A job of a cluster may have been given a few of a machine's processors.
+  static const size_t kProcessors = processors();
   return std::max<size_t>(kProcessors / processesHere, 1);
 }
 

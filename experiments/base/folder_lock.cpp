@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -18,19 +19,22 @@
 namespace limen {
 namespace {
 
-constexpr auto kPoll = std::chrono::milliseconds(20);
+// Most locks are held for a moment, some for minutes.
+constexpr std::chrono::milliseconds kShortestPoll{1}, kLongestPoll{20};
 constexpr int kPollsInSilence = 100;
 
 /// Closes the file if it throws.
 void waitForLock(int file, const char* path) {
   try {
+    std::chrono::milliseconds poll = kShortestPoll;
     for (int polls = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++polls) {
       if (errno == EINTR) continue;
       if (errno != EWOULDBLOCK) return;
       if (polls == kPollsInSilence)
         std::fprintf(stderr, "waiting for another process that writes to %s\n", path);
       throwIfInterrupted();
-      std::this_thread::sleep_for(kPoll);
+      std::this_thread::sleep_for(poll);
+      poll = std::min(2 * poll, kLongestPoll);
     }
   } catch (...) {
     ::close(file);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <system_error>
 #include <unordered_set>
 
@@ -47,10 +51,11 @@ fs::path freePath(const fs::path& folder, const Artefact& artefact, const std::s
               "move the file away and merge again");
 }
 
-// Copies one artefact file and returns its path in the new folder. Moved into place when complete, so that a
-// killed merge leaves no incomplete file under a valid name.
-std::string copyArtefact(const Artefact& artefact, const std::string& key, const std::string& from,
-                         const std::string& to) {
+// Takes one artefact file along and returns its path in the new folder. A copy is moved into place when
+// complete, so that a killed merge leaves no incomplete file under a valid name. Folders with a new name of a
+// file, which are not on the disk yet, are added to `changed`.
+std::string takeArtefact(const Artefact& artefact, const std::string& key, const std::string& from,
+                         const std::string& to, Store::Files files, std::set<std::string>& changed) {
   requireInside(artefact.path, from);
   const fs::path source = folderOf(from) / artefact.path;
   if (!fs::exists(source))
@@ -66,6 +71,11 @@ std::string copyArtefact(const Artefact& artefact, const std::string& key, const
   if (error)
     throw Error("the folder cannot be made: " + error.message(), full.parent_path().string(),
                 "check rights and space");
+  if (files == Store::Files::Shared &&
+      linkat(AT_FDCWD, source.c_str(), AT_FDCWD, full.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+    changed.insert(full.parent_path().string());
+    return target.string();
+  }
   PartFile part(full.string());
   std::ifstream in(source, std::ios::binary);
   std::vector<char> buffer(size_t{1} << 20);
@@ -123,7 +133,7 @@ std::vector<Expectation> joinExpectations(std::vector<Expectation> ours,
 
 }  // namespace
 
-int64_t Store::merge(const Store& other) {
+int64_t Store::merge(const Store& other, Files files) {
   if (fs::equivalent(path_, other.path_))
     throw Error("cannot be merged into itself", path_, "name another store");
   // What is planned here is read, joined and written again: two merges at once would lose one of both.
@@ -179,12 +189,14 @@ int64_t Store::merge(const Store& other) {
     std::vector<Run> chunk;
     for (size_t i = begin; i < end; ++i) chunk.push_back(readRunById(other.database_, candidates[i].id));
     readDetails(other.database_, chunk, true);
+    std::set<std::string> changedFolders;
     for (Run& run : chunk) {
       if (environmentIds.count(run.environment) == 0)
         environmentIds[run.environment] = putEnvironment(other.environment(run.environment));
       for (Artefact& artefact : run.artefacts)
-        artefact.path = copyArtefact(artefact, run.key, other.path_, path_);
+        artefact.path = takeArtefact(artefact, run.key, other.path_, path_, files, changedFolders);
     }
+    for (const std::string& folder : changedFolders) syncPath(folder);
     Transaction transaction(database_, Mode::Write);
     for (const Run& run : chunk) {
       if (!isWanted(database_, run)) continue;  // finished here by another process meanwhile

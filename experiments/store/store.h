@@ -137,9 +137,11 @@ class Store {
   std::vector<Run> allRuns(bool withFrameTimes = false) const;
   std::vector<RunState> runStates() const;
 
-  /// Copies what this store lacks from `other`: finished runs win over failed ones; artefact files are copied
-  /// too. Returns the number of runs added.
-  int64_t merge(const Store& other);
+  /// What becomes of artefact files: copies, or further names of the same files where the file system allows.
+  enum class Files { Copied, Shared };
+  /// Copies what this store lacks from `other`: finished runs win over failed ones; artefact files are taken
+  /// along. Returns the number of runs added.
+  int64_t merge(const Store& other, Files files = Files::Copied);
 
  private:
   std::string path_;

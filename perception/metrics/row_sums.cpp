@@ -16,7 +16,7 @@ void forEachRow(int rows, size_t pixelsPerRow, const std::function<void(int)>& w
   // Starting a thread costs about as much as ten thousand pixels, and they are started one after the other.
   constexpr size_t kPixelsPerThread = 65536;
   const size_t worthwhile = 1 + static_cast<size_t>(std::max(rows, 0)) * pixelsPerRow / kPixelsPerThread;
-  const size_t threadCount = std::min(worthwhile, cores());
+  const size_t threadCount = std::min({worthwhile, cores(), static_cast<size_t>(std::max(rows, 1))});
   std::atomic<int> next{0};
   std::exception_ptr failure;
   std::mutex failureMutex;

@@ -15,6 +15,9 @@ inline constexpr const char* kDeviceVariable = "LIMEN_EGL_DEVICE";
 /// gives none has an empty renderer. Throws Error if there is no EGL.
 std::vector<DeviceInfo> listHeadlessDevices();
 
+/// For each of them whether EGL says that a CPU renders. None is started. Throws Error if there is no EGL.
+std::vector<bool> softwareHeadlessDevices();
+
 /// For each of them whether createHeadlessContext() takes it without being asked: in a job of Slurm only
 /// GPUs that the job was given, elsewhere all. Throws Error if that cannot be told.
 std::vector<bool> assignedHeadlessDevices();

@@ -157,6 +157,12 @@ std::vector<DeviceInfo> listHeadlessDevices() {
   return out;
 }
 
+std::vector<bool> softwareHeadlessDevices() {
+  std::vector<bool> out;
+  for (const DeviceIdentity& device : identitiesOf(eglDevices())) out.push_back(device.software);
+  return out;
+}
+
 std::vector<bool> assignedHeadlessDevices() { return allowedDevices(eglDevices()); }
 
 std::unique_ptr<Context> createHeadlessContext() {

@@ -20,7 +20,24 @@ class SweepOnGpus : public SweepCli {
   void SetUp() override {
     SweepCli::SetUp();
     setenv("FAKE_GPUS", "3", 1);
-    unsetenv("FAKE_GIVEN");
+    for (const char* name : {"FAKE_GIVEN", "FAKE_OPEN_S", "FAKE_BROKEN"}) unsetenv(name);
+  }
+  void TearDown() override {
+    for (const char* name : {"FAKE_OPEN_S", "FAKE_BROKEN"}) unsetenv(name);
+    SweepCli::TearDown();
+  }
+
+  /// Processes that a process started to measure.
+  static std::vector<pid_t> measuringFor(pid_t parent) {
+    std::vector<pid_t> out;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      const std::string name = entry.path().filename().string();
+      std::ifstream in(entry.path() / "cmdline", std::ios::binary);
+      const std::string words{std::istreambuf_iterator<char>(in), {}};
+      if (words.find("--parent=" + std::to_string(parent) + '\0') != std::string::npos)
+        out.push_back(std::stoi(name));
+    }
+    return out;
   }
 
   static std::string descriptor(int sleepMs, const std::string& more = "") {
@@ -90,6 +107,57 @@ TEST_F(SweepOnGpus, GpusWorkAtTheSameTime) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   // One after another the runs sleep 2.4 s, side by side 1.2 s.
   EXPECT_LT(seconds, 2.2);
+}
+
+TEST_F(SweepOnGpus, DevicesAreOpenedOnceAndSideBySide) {
+  setenv("FAKE_OPEN_S", "1", 1);
+  write("d.yaml", descriptor(0));
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(call({"d.yaml", "--gpus", "all", "--no-report"}).exitCode, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // Twice, or one after another, would take 2 or 3 s.
+  EXPECT_LT(seconds, 1.9);
+}
+
+TEST_F(SweepOnGpus, ADeviceThatCannotBeOpenedIsLeftOutOrRefused) {
+  setenv("FAKE_BROKEN", "2", 1);
+  write("d.yaml", descriptor(0));
+  const CallResult named = call({"d.yaml", "--gpus", "1,2", "--no-report"});
+  EXPECT_EQ(named.exitCode, 2);
+  EXPECT_THAT(named.err, HasSubstr("there is no device 2 to measure on: no OpenGL 4.5"));
+  EXPECT_FALSE(exists("results"));
+  const CallResult all = call({"d.yaml", "--gpus", "all", "--no-report"});
+  EXPECT_EQ(all.exitCode, 0) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("on 2 GPUs"));
+}
+
+TEST_F(SweepOnGpus, ProcessesThatStandByEndWithTheSweep) {
+  setenv("FAKE_OPEN_S", "20", 1);
+  write("d.yaml", descriptor(0));
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    const pid_t sweep = start({"d.yaml", "--gpus", "all", "--no-report"});
+    for (int i = 0; i < 200 && measuringFor(sweep).size() < 3; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ASSERT_EQ(measuringFor(sweep).size(), 3U);
+    kill(sweep, signal);
+    wait(sweep);
+    for (int i = 0; i < 200 && !measuringFor(sweep).empty(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(measuringFor(sweep).empty()) << signal;
+  }
+  EXPECT_FALSE(exists("results"));
+}
+
+TEST_F(SweepOnGpus, AProcessThatIsKilledIsStartedAgain) {
+  write("d.yaml", descriptor(250));
+  const pid_t sweep = start({"d.yaml", "--gpus", "all", "--no-report"});
+  ASSERT_TRUE(someRunIsDone());
+  const std::vector<pid_t> before = measuringFor(sweep);
+  ASSERT_EQ(before.size(), 3U);
+  kill(before[0], SIGKILL);
+  const CallResult result = wait(sweep);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("24 measured"));
 }
 
 TEST_F(SweepOnGpus, ARunThatKillsItsProcessFailsAndTheOthersAreMeasured) {

@@ -93,7 +93,7 @@ TEST(Ssim, ConstantShiftInClosedForm) {
 }
 
 TEST(Ssim, MatchesTheDefinitionWindowByWindow) {
-  for (const auto& [w, h] : {std::pair{17, 13}, {11, 11}, {40, 12}}) {
+  for (const auto& [w, h] : {std::pair{17, 13}, {11, 11}, {40, 12}, {13, 150}, {12, 74}, {12, 75}}) {
     const Image a = randomImage(w, h, 1, 1), b = randomImage(w, h, 1, 2);
     EXPECT_NEAR(valueOf("ssim", a, b), bruteForce(a, b), 1e-10) << w << " x " << h;
   }

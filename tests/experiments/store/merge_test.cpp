@@ -132,11 +132,41 @@ TEST_F(MergeTest, EqualFilesOfTheSameNameAreShared) {
   EXPECT_EQ(left.allRuns()[1].artefacts[0].path, "reference.png");
 }
 
+TEST_F(MergeTest, FilesAreFurtherNamesOnlyIfAsked) {
+  Store left(path(left_), Access::ReadWrite), right(path(right_), Access::ReadWrite);
+  addDone(left, runWithPicture(left, "a", "product.png", "A"));
+  addDone(right, runWithPicture(right, "b", "product.png", "B"));
+  EXPECT_EQ(left.merge(right, Store::Files::Shared), 1);
+  const std::string shared = path("left/" + left.allRuns().at(1).artefacts.at(0).path);
+  EXPECT_EQ(readFile(shared), "B");
+  EXPECT_EQ(readFile(path("left/product.png")), "A");
+  EXPECT_TRUE(std::filesystem::equivalent(shared, path("right/product.png")));
+
+  Store third(path("third/s.sqlite"), Access::ReadWrite);
+  EXPECT_EQ(third.merge(right), 1);
+  EXPECT_EQ(readFile(path("third/product.png")), "B");
+  EXPECT_FALSE(std::filesystem::equivalent(path("third/product.png"), path("right/product.png")));
+}
+
+TEST_F(MergeTest, FilesThatCannotBeSharedAreCopied) {
+  // Another file system.
+  std::string pattern = "/dev/shm/limen_store_XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) GTEST_SKIP() << "/dev/shm is not there";
+  {
+    Store left(path(left_), Access::ReadWrite), right(pattern + "/s.sqlite", Access::ReadWrite);
+    addDone(right, runWithPicture(right, "b", "product.png", "B"));
+    EXPECT_EQ(left.merge(right, Store::Files::Shared), 1);
+  }
+  std::filesystem::remove_all(pattern);
+  EXPECT_EQ(readFile(path("left/product.png")), "B");
+}
+
 TEST_F(MergeTest, DamagedMissingAndEscapingFilesAreRefused) {
   Store left(path(left_), Access::ReadWrite), right(path(right_), Access::ReadWrite);
   addDone(right, runWithPicture(right, "b", "product.png", "B"));
   writeFile(folder_ / "right/product.png", "changed");
   EXPECT_THAT(errorOf([&] { left.merge(right); }), HasSubstr("SHA-256 differs"));
+  EXPECT_THAT(errorOf([&] { left.merge(right, Store::Files::Shared); }), HasSubstr("SHA-256 differs"));
   std::filesystem::remove(folder_ / "right/product.png");
   EXPECT_THAT(errorOf([&] { left.merge(right); }), HasSubstr("is missing"));
   rawSql(right.path(), "UPDATE artefact SET path = '../outside.png'");

@@ -68,15 +68,20 @@ TEST_F(FieldShadowTest, BallsShadeASphericalLightAsGeometrySays) {
     Given given = {{"rays", int64_t{256}}};
     if (!traced) given.insert({{"positions", int64_t{4226}}, {"directions", int64_t{64}}});
     const Image image = render(scene, traced ? kTracedShadows : kFieldShadows, given, kShadowSizePx).product;
-    double sum = 0.0, least = 1.0;
+    double sum = 0.0, squares = 0.0, least = 1.0;
     for (int y = 0; y < kShadowSizePx.y; ++y)
       for (int x = 0; x < kShadowSizePx.x; ++x) {
         const double expected = seenShare(groundAt(x, y)), found = image.at(x, y);
         ASSERT_NEAR(found, expected, 0.125 + (traced ? 0.0 : 0.22)) << x << ' ' << y;
         sum += found - expected;
+        squares += (found - expected) * (found - expected);
         least = std::min(least, expected);
       }
     EXPECT_LT(least, 0.3);
+    // Errors of 64 such cells, each within half of its area either way: 8 * 0.29 / 256 at most.
+    if (traced) {
+      EXPECT_LT(std::sqrt(squares / (kShadowSizePx.x * kShadowSizePx.y)), 0.009);
+    }
     EXPECT_LT(std::abs(sum / (kShadowSizePx.x * kShadowSizePx.y)), traced ? 0.005 : 0.02);
   }
 }

@@ -289,7 +289,8 @@ TEST_F(ConeTraced, NoSettingOfTheTraversalChangesABit) {
 
 /// Peeled layers are the sorted ones, but for rounding of a sum of at most 12 terms and what lies
 /// behind the last 1e-5 of a cone; triangles at the same distance in a pixel, of which peeling keeps one, in
-/// less than one pixel in fifty.
+/// less than one pixel in two hundred. Where layers cover more than a cone has left, as along the ball's
+/// outline, 13 of 980 would differ without their saturation.
 TEST_F(ConeTraced, PeeledLayersAreTheSortedOnes) {
   const scene::Scene scene = makeScene("mirrors/ball", {{"tessellation", int64_t{4}}, {"gloss", 0.02}});
   struct Tried {
@@ -307,7 +308,7 @@ TEST_F(ConeTraced, PeeledLayersAreTheSortedOnes) {
                     {35, 28})
           .product;
     };
-    EXPECT_LE(differing(picture("peeled"), picture("sorted"), 1e-4).count, 20U)
+    EXPECT_LE(differing(picture("peeled"), picture("sorted"), 1e-4).count, 4U)
         << tried.layers << " " << tried.fill;
   }
 }
