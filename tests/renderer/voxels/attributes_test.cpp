@@ -204,11 +204,13 @@ TEST_F(VoxelAttributesTest, TwoVolumesJoinAsOne) {
 }
 
 // Sums of occupied voxels alone are those of all, to the last bit, in as much room as there are such voxels.
+// Without rays, which TwoVolumesJoinAsOne has: they make up most of a program, and there are twelve here.
 TEST_F(VoxelAttributesTest, SumsOfOccupiedVoxelsAreThoseOfAll) {
   const scene::Scene scene = litCorner();
   const VoxelGrid grid = tightGrid(scene.bounds(), 24);
   const frame::GpuScene gpuScene(scene);
   frame::Frame frame(context(), scene, gpuScene, {16, 16});
+  const VoxelLamps lamps{.all = true, .shadows = false};
   for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin, Coverage::Conservative}) {
     VolumeAttributes all = kAll, occupied = kAll;
     occupied.sums = VoxelSums::Occupied;
@@ -216,8 +218,8 @@ TEST_F(VoxelAttributesTest, SumsOfOccupiedVoxelsAreThoseOfAll) {
     const Volume dense(context(), grid, gpuScene.anchor(), all),
         compact(context(), grid, gpuScene.anchor(), occupied);
     frame.begin();
-    Voxelizer(frame, coverage, dense).run(frame, dense);
-    const Voxelizer voxelizer(frame, coverage, compact);
+    Voxelizer(frame, coverage, dense, lamps).run(frame, dense);
+    const Voxelizer voxelizer(frame, coverage, compact, lamps);
     for (int i = 0; i < 2; ++i) voxelizer.run(frame, compact);
     frame.end();
     expectEqual(compact, dense);
