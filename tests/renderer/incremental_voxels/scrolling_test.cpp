@@ -22,12 +22,13 @@ class ScrollingTest : public voxels::VoxelizerFixture {
     grid.resolution = {37, 17, 26};
     return grid;
   }
-  static scene::Scene boxes() {
+  static scene::Scene boxes(bool both = true) {
     scene::Scene scene;
     scene::addPart(scene, "wall", scene::box({-1.9, -0.8, -1.9}, {2.9, 0.9, -1.7}),
                    glm::vec3(0.5F, 0.2F, 0.7F));
-    scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
-                   glm::vec3(0.1F, 0.8F, 0.3F));
+    if (both)
+      scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
+                     glm::vec3(0.1F, 0.8F, 0.3F));
     scene.lights = {scene::lightTowards({1.3, 1.1, 1.9}, {0.0, 0.1, -1.0}, glm::dvec2(0.2))};
     scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
     return scene;
@@ -113,6 +114,61 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
         }
     }
   }
+}
+
+// Where a grid that scrolls has been all the time it holds what a large one that stays holds, while a box
+// comes and goes: the same voxels, with the same attributes.
+TEST_F(ScrollingTest, WhatIsSeenAndClearedIsThatOfAGridThatStays) {
+  voxels::VoxelGrid grid = smallGrid(), large = smallGrid();
+  const glm::ivec3 around(8, 7, 9), size = grid.resolution;
+  large.origin -= glm::dvec3(around) * grid.voxelSize;
+  large.resolution += 2 * around;
+  const scene::Scene scenes[] = {boxes(), boxes(false)};
+  const frame::GpuScene with(scenes[0]), without(scenes[1]);
+  const PointSettings points{.side = 64};
+  SampledVolume scrolled(context(), grid, with.anchor(), true, 1, points.perStep(), true),
+      still(context(), large, with.anchor(), true, 1, points.perStep());
+  const CleanUp cleanScrolled(context(), {}, scrolled, 1, 1), cleanStill(context(), {}, still, 1, 1);
+  const Injection intoScrolled(context(), points, scrolled, 1, 1), intoStill(context(), points, still, 1, 1);
+  glm::ivec3 at(0), low(0), high(size);  // low and high: of what it has never left
+  int64_t compared = 0, empty = 0;
+  const std::vector<glm::ivec3> moves = {{0, 0, 0},  {3, -2, 1},  {-5, 4, 2},
+                                         {7, 1, -6}, {-4, -5, 5}, {1, 3, -3}};
+  for (size_t step = 0; step < moves.size(); ++step) {
+    const frame::GpuScene& gpuScene = step % 2 == 0 ? with : without;
+    frame::Frame frame(context(), scenes[step % 2], gpuScene, {96, 80});
+    at += moves[step];
+    low = glm::max(low, at), high = glm::min(high, at + size);
+    scrolled.moveTo(grid.origin + glm::dvec3(at) * grid.voxelSize);
+    frame.begin();
+    const std::vector<DepthView> views = {cameraView(frame)};
+    for (SampledVolume* volume : {&scrolled, &still}) {
+      volume->turn();
+      (volume == &still ? cleanStill : cleanScrolled).run(*volume, views, gpuScene.anchor());
+      (volume == &still ? intoStill : intoScrolled).run(frame, *volume, views, {}, static_cast<int>(step));
+    }
+    frame.end();
+    const std::vector<uint8_t> found = scrolled.readOccupied(), expected = still.readOccupied();
+    std::vector<Image> albedos;
+    for (int z = 0; z < size.z; ++z) albedos.push_back(scrolled.albedo().readLayer(z));
+    glm::ivec3 v;
+    for (v.z = low.z; v.z < high.z; ++v.z) {
+      const Image albedo = still.albedo().readLayer(v.z + around.z);
+      for (v.y = low.y; v.y < high.y; ++v.y)
+        for (v.x = low.x; v.x < high.x; ++v.x) {
+          const uint8_t is = found[static_cast<size_t>(grid.indexOf(v - at))];
+          ASSERT_EQ(is, expected[static_cast<size_t>(large.indexOf(v + around))])
+              << step << " at " << v.x << " " << v.y << " " << v.z;
+          const glm::ivec3 stored = scrolled.storedVoxel(v - at);
+          for (int c = 0; c < 4; ++c)
+            ASSERT_EQ(albedos[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      albedo.at(v.x + around.x, v.y + around.y, c));
+          ++(is ? compared : empty);
+        }
+    }
+  }
+  EXPECT_GT(compared, 500);
+  EXPECT_GT(empty, 5000);
 }
 
 // As a new volume: the bits, and every texel of the attributes.
