@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/part_motion.h"
@@ -152,6 +153,27 @@ TEST_F(SlicingTest, ThreeViewsAreTheThinSet) {
     EXPECT_EQ(rendered.counter("extra_voxels"), 0.0) << technique;
     EXPECT_LT(rendered.counter("hole_voxels"), 0.002 * thin) << technique;
   }
+}
+
+// Every face in a plane between two voxels: in the one behind it, or in the last one. Of the frame that are
+// 16^3
+// - 14^3 voxels; of the block, whose faces have 4 x 8, 6 x 8 and 6 x 4 voxels, twice as many each, less those
+// that two or three faces on its low sides share: 2 (32 + 48 + 24) - (8 + 4 + 6) + 1.
+TEST_F(SlicingTest, AFaceBetweenTwoSlicesIsInOneOfThem) {
+  scene::Scene scene;
+  scene::addPart(scene, "frame", scene::box(glm::dvec3(0.0), glm::dvec3(16.0)), glm::vec3(0.5F));
+  scene::addPart(scene, "block", scene::box({4.0, 4.0, 6.0}, {10.0, 8.0, 14.0}), glm::vec3(0.5F));
+  const Given full{{"vertices", int64_t{128}}};
+  for (const auto& [technique, given] : {std::pair<const char*, Given>{"slicing", full},
+                                         {"pixel_clip", full},
+                                         {"slice_passes", {}},
+                                         {"slice_lists", {}},
+                                         {"bit_masks", {{"views", std::string("all")}}},
+                                         {"binned", {}},
+                                         {"image_store", {{"coverage", std::string("dominant")}}},
+                                         {"image_store", {{"coverage", std::string("thin")}}}})
+    EXPECT_EQ(voxelsOf(scene, (std::string("voxelization/") + technique).c_str(), given), 1352 + 191)
+        << technique;
 }
 
 // Among 512 voxels, where the ends of slices are rounded: no column of a large triangle that passes through
