@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A grid that scrolls, against one that is made anew at each place.
 #include <algorithm>
+#include <set>
+#include <vector>
 
 #include "renderer/incremental_voxels/clean_up.h"
 #include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/moving_bricks.h"
 #include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
@@ -169,6 +172,53 @@ TEST_F(ScrollingTest, WhatIsSeenAndClearedIsThatOfAGridThatStays) {
   }
   EXPECT_GT(compared, 500);
   EXPECT_GT(empty, 5000);
+}
+
+// Bricks that a part has been in are those that its voxels are stored in, however the grid's places are
+// turned: around its end and on at its beginning, along each axis and along all. They stay as the grid
+// scrolls, and go with all that is in it.
+TEST_F(ScrollingTest, BricksOfPartsAreWhereTheirVoxelsAreStored) {
+  const voxels::VoxelGrid grid = smallGrid();
+  const glm::ivec3 size = grid.resolution, counts = brickCounts(grid);
+  // In voxels; reaches beyond the grid's high side along z.
+  const glm::dvec3 low(30.3, 3.4, 20.6), high(34.7, 11.2, 29.5);
+  scene::Scene scene;
+  scene::addPart(scene, "moves",
+                 scene::box(grid.origin + low * grid.voxelSize, grid.origin + high * grid.voxelSize),
+                 glm::vec3(0.5F));
+  scene.motions.emplace_back();
+  const auto bricksAt = [&](glm::ivec3 wrap) {
+    std::set<uint32_t> out;
+    const glm::ivec3 last = glm::min(glm::ivec3(high), size - 1);
+    glm::ivec3 v;
+    for (v.z = int(low.z); v.z <= last.z; ++v.z)
+      for (v.y = int(low.y); v.y <= last.y; ++v.y)
+        for (v.x = int(low.x); v.x <= last.x; ++v.x) {
+          const glm::ivec3 brick = (v + wrap) % size / glm::ivec3(32, 8, 8);
+          out.insert(uint32_t(brick.x + counts.x * (brick.y + counts.y * brick.z)));
+        }
+    return out;
+  };
+  const auto listed = [](const MovingBricks& bricks) {
+    const std::vector<uint32_t> list = bricks.list().read<uint32_t>(0, bricks.count());
+    return std::set<uint32_t>(list.begin(), list.end());
+  };
+  for (const glm::ivec3 wrap : {glm::ivec3(0), glm::ivec3(5, 0, 0), glm::ivec3(0, 9, 0), glm::ivec3(0, 0, 4),
+                                glm::ivec3(2, 7, 3), glm::ivec3(36, 16, 25), glm::ivec3(11, 12, 13)}) {
+    MovingBricks bricks(scene, grid);
+    bricks.add(0.0, wrap);
+    EXPECT_EQ(listed(bricks), bricksAt(wrap)) << wrap.x << " " << wrap.y << " " << wrap.z;
+    EXPECT_EQ(bricks.count(), int(bricksAt(wrap).size()));
+  }
+  MovingBricks bricks(scene, grid);
+  bricks.add(0.0, {0, 9, 0});
+  bricks.moveTo(grid, {36, -16, 25});
+  bricks.add(0.0, {5, 0, 0});
+  std::set<uint32_t> both = bricksAt({0, 9, 0});
+  both.merge(bricksAt({5, 0, 0}));
+  EXPECT_EQ(listed(bricks), both);
+  bricks.moveTo(grid, {0, -17, 0});
+  EXPECT_EQ(bricks.count(), 0);
 }
 
 // As a new volume: the bits, and every texel of the attributes.

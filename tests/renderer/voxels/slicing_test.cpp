@@ -158,7 +158,8 @@ TEST_F(SlicingTest, ThreeViewsAreTheThinSet) {
 // Every face in a plane between two voxels: in the one behind it, or in the last one. Of the frame that are
 // 16^3
 // - 14^3 voxels; of the block, whose faces have 4 x 8, 6 x 8 and 6 x 4 voxels, twice as many each, less those
-// that two or three faces on its low sides share: 2 (32 + 48 + 24) - (8 + 4 + 6) + 1.
+// that two or three faces on its low sides share: 2 (32 + 48 + 24) - (8 + 4 + 6) + 1. By conservative
+// coverage it is in both: of the block 8 x 6 x 10 voxels less the 4 x 2 x 6 within that it does not touch.
 TEST_F(SlicingTest, AFaceBetweenTwoSlicesIsInOneOfThem) {
   scene::Scene scene;
   scene::addPart(scene, "frame", scene::box(glm::dvec3(0.0), glm::dvec3(16.0)), glm::vec3(0.5F));
@@ -174,6 +175,12 @@ TEST_F(SlicingTest, AFaceBetweenTwoSlicesIsInOneOfThem) {
                                          {"image_store", {{"coverage", std::string("thin")}}}})
     EXPECT_EQ(voxelsOf(scene, (std::string("voxelization/") + technique).c_str(), given), 1352 + 191)
         << technique;
+  Given conservative = full;
+  conservative["coverage"] = std::string("conservative");
+  EXPECT_EQ(voxelsOf(scene, "voxelization/slicing", conservative), 1352 + 432);
+  EXPECT_EQ(voxelsOf(scene, "voxelization/pixel_clip", conservative), 1352 + 432);
+  EXPECT_EQ(voxelsOf(scene, "voxelization/image_store", {{"coverage", std::string("conservative")}}),
+            1352 + 432);
 }
 
 // Among 512 voxels, where the ends of slices are rounded: no column of a large triangle that passes through
