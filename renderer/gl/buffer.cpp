@@ -8,13 +8,6 @@
 #include "renderer/gl/fills.h"
 
 namespace limen::gl {
-namespace {
-
-constexpr int64_t kMostFilled =
-    (int64_t{1} << 31) - 4;  // bytes of a storage block, as NVIDIA's driver has it
-
-}  // namespace
-
 Buffer::Buffer(int64_t bytes, const void* data) : bytes_(bytes > 0 ? bytes : 16) {
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, bytes_, bytes > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -39,10 +32,9 @@ void Buffer::bindStorage(uint32_t binding, int64_t offset, int64_t bytes) const 
 void Buffer::bindUniform(uint32_t binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
 
 void Buffer::clearUint(uint32_t value) const {
-  if (const Fills* fills = Fills::forBytes(bytes_); fills && bytes_ <= kMostFilled) {
-    fills->fillBuffer(id_, bytes_, value);
-    return;
-  }
+  if (const Fills* fills = Fills::forBytes(bytes_)) return fills->fillBuffer(id_, bytes_, value);
+  // After what shaders have written to it before.
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 

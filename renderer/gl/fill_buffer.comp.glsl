@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All words of a buffer become the same.
+// All words of a part of a buffer become the same.
 #include "renderer/gl/fill_bindings.h"
 
 layout(local_size_x = kFillGroup) in;
@@ -7,9 +7,8 @@ layout(std430, binding = kFilledBuffer) writeonly buffer Words { uint words[]; }
 uniform uint wordCount, value;
 
 void main() {
-  const uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
   for (uint i = 0u; i < uint(kFillWords); ++i) {
-    const uint at = uint(kFillGroup) * (uint(kFillWords) * group + i) + gl_LocalInvocationIndex;
+    const uint at = uint(kFillGroup) * (uint(kFillWords) * gl_WorkGroupID.x + i) + gl_LocalInvocationIndex;
     if (at < wordCount) words[at] = value;
   }
 }

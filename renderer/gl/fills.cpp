@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,7 +16,9 @@ namespace limen::gl {
 namespace {
 
 constexpr int64_t kLeastBytes = 65536;
-constexpr GLuint kMostGroups = 65535;
+constexpr int64_t kPartBytes = int64_t{1} << 27;  // of a storage block, which every implementation grants
+constexpr int64_t kGroupBytes = 4 * int64_t{kFillGroup} * kFillWords;
+static_assert((kPartBytes + kGroupBytes - 1) / kGroupBytes <= 65535);
 
 /// Of all contexts. Never destroyed, as contexts may be objects of static storage.
 struct AllFills {
@@ -28,12 +32,28 @@ AllFills& allFills() {
 
 /// A thread has one current context.
 thread_local const Fills* currentFills = nullptr;
+std::atomic<bool> onSoftware = false;
 
-/// The image unit and the program of before, again at the end.
+/// The program of before, again at the end.
+class KeptProgram {
+ public:
+  KeptProgram() { glGetIntegerv(GL_CURRENT_PROGRAM, &program_); }
+  ~KeptProgram() {
+    // One that was deleted while in use is gone as soon as another one is used.
+    const auto program = static_cast<GLuint>(program_);
+    glUseProgram(glIsProgram(program) ? program : 0);
+  }
+  KeptProgram(const KeptProgram&) = delete;
+  KeptProgram& operator=(const KeptProgram&) = delete;
+
+ private:
+  GLint program_ = 0;
+};
+
+/// So is the image unit.
 class KeptImage {
  public:
   KeptImage() {
-    glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
     for (size_t i = 0; i < 6; ++i) glGetIntegeri_v(kNames[i], kFilledImage, &values_[i]);
   }
   ~KeptImage() {
@@ -41,7 +61,6 @@ class KeptImage {
     glBindImageTexture(kFilledImage, static_cast<GLuint>(values_[0]), values_[1],
                        static_cast<GLboolean>(values_[2]), values_[3], static_cast<GLenum>(values_[4]),
                        static_cast<GLenum>(values_[5]));
-    glUseProgram(static_cast<GLuint>(program_));
   }
   KeptImage(const KeptImage&) = delete;
   KeptImage& operator=(const KeptImage&) = delete;
@@ -50,7 +69,31 @@ class KeptImage {
   static constexpr GLenum kNames[6] = {GL_IMAGE_BINDING_NAME,    GL_IMAGE_BINDING_LEVEL,
                                        GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER,
                                        GL_IMAGE_BINDING_ACCESS,  GL_IMAGE_BINDING_FORMAT};
-  GLint program_ = 0, values_[6] = {};
+  GLint values_[6] = {};
+};
+
+/// And the binding of a storage block.
+class KeptBuffer {
+ public:
+  KeptBuffer() {
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, kFilledBuffer, &buffer_);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, kFilledBuffer, &start_);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, kFilledBuffer, &size_);
+  }
+  ~KeptBuffer() {
+    const auto buffer = static_cast<GLuint>(buffer_);
+    if (size_ > 0)
+      glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, buffer, static_cast<GLintptr>(start_),
+                        static_cast<GLsizeiptr>(size_));
+    else
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, buffer);
+  }
+  KeptBuffer(const KeptBuffer&) = delete;
+  KeptBuffer& operator=(const KeptBuffer&) = delete;
+
+ private:
+  GLint buffer_ = 0;
+  GLint64 start_ = 0, size_ = 0;
 };
 
 }  // namespace
@@ -70,6 +113,7 @@ Fills::Fills() {
 }
 
 void Fills::dispatch(const Program& program, const Level& level) const {
+  const KeptProgram keptProgram;
   const KeptImage kept;
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   glBindImageTexture(kFilledImage, level.id, level.level, GL_TRUE, 0, GL_WRITE_ONLY, level.internalFormat);
@@ -96,41 +140,33 @@ void Fills::fill(const Level& level, glm::uvec4 value) const {
 }
 
 void Fills::fillBuffer(uint32_t id, int64_t bytes, uint32_t value) const {
-  GLint program = 0, buffer = 0;
-  GLint64 start = 0, size = 0;
-  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
-  glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, kFilledBuffer, &buffer);
-  glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, kFilledBuffer, &start);
-  glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, kFilledBuffer, &size);
+  const KeptProgram program;
+  const KeptBuffer kept;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, id);
-  const int64_t words = bytes / 4, perGroup = int64_t{kFillGroup} * kFillWords;
-  buffer_->set("wordCount", static_cast<uint32_t>(words));
   buffer_->set("value", value);
   buffer_->use();
-  const auto groups = static_cast<GLuint>((words + perGroup - 1) / perGroup);
-  const GLuint rows = (groups + kMostGroups - 1) / kMostGroups;
-  glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+  for (int64_t first = 0; first < bytes; first += kPartBytes) {
+    const int64_t part = std::min(bytes - first, kPartBytes);
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, id, first, part);
+    buffer_->set("wordCount", static_cast<uint32_t>(part / 4));
+    glDispatchCompute(static_cast<GLuint>((part + kGroupBytes - 1) / kGroupBytes), 1, 1);
+  }
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  if (size > 0)
-    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, static_cast<GLuint>(buffer),
-                      static_cast<GLintptr>(start), static_cast<GLsizeiptr>(size));
-  else
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFilledBuffer, static_cast<GLuint>(buffer));
-  glUseProgram(static_cast<GLuint>(program));
 }
 
 const Fills* Fills::forBytes(int64_t bytes) { return bytes >= kLeastBytes ? currentFills : nullptr; }
 
 void Fills::madeCurrent(const Context& context) {
   currentFills = nullptr;
-  if (context.device().software) return;
+  if (context.device().software && !onSoftware) return;
   AllFills& all = allFills();
   const std::lock_guard lock(all.mutex);
   std::unique_ptr<Fills>& own = all.of[&context];
   if (!own) own = std::make_unique<Fills>();
   currentFills = own.get();
 }
+
+void Fills::useOnSoftware(bool use) { onSoftware = use; }
 
 void Fills::gone(const Context& context) {
   currentFills = nullptr;

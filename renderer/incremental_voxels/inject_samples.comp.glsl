@@ -18,12 +18,12 @@ layout(std430, binding = kSampleSumsBuffer) buffer Sums { uint sampleSums[]; };
 uniform float sampleScale, lightScale;  // units in 1
 uniform uint placeMask;                 // places of the table, a power of 2, less 1
 
-// A voxel's place, which it takes if it has none. There are at least twice as many as there are samples.
+// A voxel's place, which it takes if it has none. There are at least twice as many as there are samples; the search ends in any case.
 uint placeOf(ivec3 stored) {
   const uint key = kSampleKey | uint(stored.x) | uint(stored.y) << 10 | uint(stored.z) << 20;
   uint place = key * 2654435761u;  // golden ratio of 2^32 (Knuth 1998, section 6.4)
   place = (place ^ place >> 15) & placeMask;
-  while (true) {
+  for (uint tried = 0u; tried < placeMask; ++tried) {
     uint found = sampleKeys[place];
     if (found == 0u) {
       found = atomicCompSwap(sampleKeys[place], 0u, key);
@@ -32,6 +32,7 @@ uint placeOf(ivec3 stored) {
     if (found == 0u || found == key) return place;
     place = (place + 1u) & placeMask;
   }
+  return place;
 }
 
 void addTo(uint first, vec3 value) {

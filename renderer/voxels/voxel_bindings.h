@@ -60,8 +60,6 @@ const uint kVolumeBaseSumsBuffer = 5u;
 // Rounding that shaders allow for, in voxels: positions of up to 1024 voxels, kept as floats relative to the
 // scene's anchor, are off by up to 2^-13, and tests of edges and planes add as much again.
 const float kVoxelSlack = 0.0009765625f;
-// Components of a normal that differ by no more than this share count as equal: small triangles' are off by it.
-const float kEqualAxes = 0.0009765625f;
 // Rays to lamps start this far off the surface, in voxels, on its lit side.
 const float kVoxelRayOffset = 0.0078125f;
 

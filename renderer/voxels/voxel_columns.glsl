@@ -51,7 +51,7 @@ struct Work {
 };
 Work workOf(VoxelTriangle t) {
   Work work;
-  work.axis = longestAxis(t.reach > 0.0 ? t.normal : vec3(0.0, 0.0, 1.0));
+  work.axis = axisOfTriangle(t.a, t.b, t.c);
   work.columns = columnsOf(t, work.axis, COVERAGE == COVERAGE_DOMINANT);
   return work;
 }

@@ -61,7 +61,9 @@ IncrementalTechnique::Step IncrementalTechnique::step(frame::Frame& frame) {
       const auto scope = frame.passes().open("incremental_voxelization/restart");
       const glm::ivec3 by = volume_->moveTo(grid.origin);
       moved(volume_->grid(), by);
-      ++(volume_->scrolls() ? scrolls_ : restarts_);
+      // Nothing stays of a box that moves by its own size.
+      const bool stays = glm::all(glm::lessThan(glm::abs(by), volume_->grid().resolution));
+      ++(stays ? scrolls_ : restarts_);
     }
   }
   views_[0] = incremental_voxels::cameraView(frame);

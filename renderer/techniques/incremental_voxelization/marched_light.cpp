@@ -97,7 +97,7 @@ class MarchedLight : public IncrementalTechnique {
 
 const RegisteredTechnique<MarchedLight> kMarchedLightRegistered{
     {.name = "incremental_voxelization/marched_light",
-     .version = 3,
+     .version = 4,
      .summary =
          "Light reflected once, by rays through voxels kept from frame to frame or through one frame's",
      .source = "Gaitatzes 2012, sections 7.5 and 7.7 (IV-10)",

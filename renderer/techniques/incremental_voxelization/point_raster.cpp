@@ -220,7 +220,7 @@ class PointRaster : public IncrementalTechnique {
 
 const RegisteredTechnique<PointRaster> kPointRasterRegistered{
     {.name = "incremental_voxelization/point_raster",
-     .version = 3,
+     .version = 4,
      .summary = "Voxels kept in textures, used in turn; points are drawn into layers or into an atlas",
      .source = "Gaitatzes 2012, sections 7.4 to 7.6 (IV-01, IV-04, IV-05, IV-09)",
      .product = ProductKind::Colour,

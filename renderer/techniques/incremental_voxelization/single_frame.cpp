@@ -49,7 +49,7 @@ class SingleFrame : public IncrementalTechnique {
 
 const RegisteredTechnique<SingleFrame> kSingleFrameRegistered{
     {.name = "incremental_voxelization/single_frame",
-     .version = 2,
+     .version = 3,
      .summary = "Voxels of what the current frame's depth images show; nothing is kept",
      .source = "Gaitatzes 2012, section 7.7 (BL-07)",
      .product = ProductKind::Colour,

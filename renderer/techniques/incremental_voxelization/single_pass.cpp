@@ -59,7 +59,7 @@ class SinglePassTechnique : public IncrementalTechnique {
 
 const RegisteredTechnique<SinglePassTechnique> kSinglePassRegistered{
     {.name = "incremental_voxelization/single_pass",
-     .version = 2,
+     .version = 3,
      .summary = "Clean-up and injection in one: each voxel takes what depth images show at its middle",
      .source = "Gaitatzes 2012, section 7.4.3 (IV-08)",
      .product = ProductKind::Colour,

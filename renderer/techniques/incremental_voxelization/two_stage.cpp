@@ -82,7 +82,7 @@ class TwoStage : public IncrementalTechnique {
 
 const RegisteredTechnique<TwoStage> kTwoStageRegistered{
     {.name = "incremental_voxelization/two_stage",
-     .version = 2,
+     .version = 3,
      .summary =
          "Voxels kept from frame to frame: what depth images disprove is emptied, what they show is filled",
      .source = "Gaitatzes 2012, section 7.4 (IV-02 to IV-07)",

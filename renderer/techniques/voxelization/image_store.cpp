@@ -207,7 +207,7 @@ std::vector<Quantity> imageStoreQuantities() {
 
 const RegisteredTechnique<ImageStore> kImageStore{
     {.name = "voxelization/image_store",
-     .version = 4,
+     .version = 5,
      .summary = "Triangles into voxels by compute: no geometry shader, no cap, nothing to merge",
      .source = "Gaitatzes 2012, chapter 6 (VX-12, VX-13)",
      .product = ProductKind::Colour,

@@ -6,7 +6,7 @@
 layout(local_size_x = kSliceGroup) in;
 uniform int mostSlices;  // of a triangle
 
-int axisOf(VoxelTriangle t) { return longestAxis(t.reach > 0.0 ? t.normal : vec3(0.0, 0.0, 1.0)); }
+int axisOf(VoxelTriangle t) { return axisOfTriangle(t.a, t.b, t.c); }
 
 // First slice and number of slices.
 ivec2 slicesOf(VoxelTriangle t, int axis) {

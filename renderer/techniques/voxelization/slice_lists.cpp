@@ -98,7 +98,7 @@ std::vector<Quantity> sliceListQuantities() {
 
 const RegisteredTechnique<SliceLists> kSliceLists{
     {.name = "voxelization/slice_lists",
-     .version = 2,
+     .version = 3,
      .summary =
          "Slices of triangles listed and filled by compute: those of the geometry shaders, without their cap",
      .source = "Gaitatzes 2012, section 6.2 (VX-14)",

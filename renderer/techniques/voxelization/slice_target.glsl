@@ -20,12 +20,12 @@ void carry(vec3 at) {
 #endif
 }
 
-bool facesAxis(vec3 normal) { return longestAxis(normal) == AXIS; }
+bool isAssigned() { return axisOfTriangle(place[0], place[1], place[2]) == AXIS; }
 
 // First and last of the slices that the triangle reaches, if it is assigned to AXIS; otherwise the last is before the first.
 // `slack`: voxels by which it is taken to reach farther.
 ivec2 slicesReached(float slack) {
-  if (!facesAxis(cross(place[1] - place[0], place[2] - place[0]))) return ivec2(0, -1);
+  if (!isAssigned()) return ivec2(0, -1);
   const float low = min(place[0][AXIS], min(place[1][AXIS], place[2][AXIS]));
   const float high = max(place[0][AXIS], max(place[1][AXIS], place[2][AXIS]));
   const int size = gridSize()[AXIS];

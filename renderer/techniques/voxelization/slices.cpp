@@ -201,7 +201,7 @@ class SliceVoxelizer : public VoxelTechnique {
 template <class Form>
 TechniqueInfo sliceInfo() {
   TechniqueInfo info{.name = Form::kName,
-                     .version = 3,
+                     .version = 4,
                      .summary = Form::kSummary,
                      .source = Form::kSource,
                      .product = ProductKind::Colour,

@@ -51,7 +51,7 @@ void order(inout vec3 p, inout vec3 q) {
 }
 
 void main() {
-  if (!facesAxis(cross(place[1] - place[0], place[2] - place[0]))) return;
+  if (!isAssigned()) return;
   vec3 v1 = place[0], v2 = place[1], v3 = place[2];
   order(v1, v2);
   order(v2, v3);

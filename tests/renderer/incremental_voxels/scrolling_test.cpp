@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A grid that scrolls, against one that is made anew at each place.
 #include <algorithm>
+#include <set>
+#include <vector>
 
 #include "renderer/incremental_voxels/clean_up.h"
 #include "renderer/incremental_voxels/injection.h"
+#include "renderer/incremental_voxels/moving_bricks.h"
 #include "renderer/incremental_voxels/single_pass.h"
 #include "renderer/scene/shapes.h"
 #include "renderer/scene/stage.h"
@@ -22,12 +25,13 @@ class ScrollingTest : public voxels::VoxelizerFixture {
     grid.resolution = {37, 17, 26};
     return grid;
   }
-  static scene::Scene boxes() {
+  static scene::Scene boxes(bool both = true) {
     scene::Scene scene;
     scene::addPart(scene, "wall", scene::box({-1.9, -0.8, -1.9}, {2.9, 0.9, -1.7}),
                    glm::vec3(0.5F, 0.2F, 0.7F));
-    scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
-                   glm::vec3(0.1F, 0.8F, 0.3F));
+    if (both)
+      scene::addPart(scene, "box", scene::box({-0.3, -0.4, -0.6}, {0.6, 0.3, 0.1}),
+                     glm::vec3(0.1F, 0.8F, 0.3F));
     scene.lights = {scene::lightTowards({1.3, 1.1, 1.9}, {0.0, 0.1, -1.0}, glm::dvec2(0.2))};
     scene::setStillCamera(scene, {{-0.4, 0.3, 2.6}, {0.05, 0.0, -0.4}, {0.1, 1.0, 0.0}, 42.0});
     return scene;
@@ -113,6 +117,108 @@ TEST_F(ScrollingTest, AStepFillsWhatItFillsInANewGrid) {
         }
     }
   }
+}
+
+// Where a grid that scrolls has been all the time it holds what a large one that stays holds, while a box
+// comes and goes: the same voxels, with the same attributes.
+TEST_F(ScrollingTest, WhatIsSeenAndClearedIsThatOfAGridThatStays) {
+  voxels::VoxelGrid grid = smallGrid(), large = smallGrid();
+  const glm::ivec3 around(8, 7, 9), size = grid.resolution;
+  large.origin -= glm::dvec3(around) * grid.voxelSize;
+  large.resolution += 2 * around;
+  const scene::Scene scenes[] = {boxes(), boxes(false)};
+  const frame::GpuScene with(scenes[0]), without(scenes[1]);
+  const PointSettings points{.side = 64};
+  SampledVolume scrolled(context(), grid, with.anchor(), true, 1, points.perStep(), true),
+      still(context(), large, with.anchor(), true, 1, points.perStep());
+  const CleanUp cleanScrolled(context(), {}, scrolled, 1, 1), cleanStill(context(), {}, still, 1, 1);
+  const Injection intoScrolled(context(), points, scrolled, 1, 1), intoStill(context(), points, still, 1, 1);
+  glm::ivec3 at(0), low(0), high(size);  // low and high: of what it has never left
+  int64_t compared = 0, empty = 0;
+  const std::vector<glm::ivec3> moves = {{0, 0, 0},  {3, -2, 1},  {-5, 4, 2},
+                                         {7, 1, -6}, {-4, -5, 5}, {1, 3, -3}};
+  for (size_t step = 0; step < moves.size(); ++step) {
+    const frame::GpuScene& gpuScene = step % 2 == 0 ? with : without;
+    frame::Frame frame(context(), scenes[step % 2], gpuScene, {96, 80});
+    at += moves[step];
+    low = glm::max(low, at), high = glm::min(high, at + size);
+    scrolled.moveTo(grid.origin + glm::dvec3(at) * grid.voxelSize);
+    frame.begin();
+    const std::vector<DepthView> views = {cameraView(frame)};
+    for (SampledVolume* volume : {&scrolled, &still}) {
+      volume->turn();
+      (volume == &still ? cleanStill : cleanScrolled).run(*volume, views, gpuScene.anchor());
+      (volume == &still ? intoStill : intoScrolled).run(frame, *volume, views, {}, static_cast<int>(step));
+    }
+    frame.end();
+    const std::vector<uint8_t> found = scrolled.readOccupied(), expected = still.readOccupied();
+    std::vector<Image> albedos;
+    for (int z = 0; z < size.z; ++z) albedos.push_back(scrolled.albedo().readLayer(z));
+    glm::ivec3 v;
+    for (v.z = low.z; v.z < high.z; ++v.z) {
+      const Image albedo = still.albedo().readLayer(v.z + around.z);
+      for (v.y = low.y; v.y < high.y; ++v.y)
+        for (v.x = low.x; v.x < high.x; ++v.x) {
+          const uint8_t is = found[static_cast<size_t>(grid.indexOf(v - at))];
+          ASSERT_EQ(is, expected[static_cast<size_t>(large.indexOf(v + around))])
+              << step << " at " << v.x << " " << v.y << " " << v.z;
+          const glm::ivec3 stored = scrolled.storedVoxel(v - at);
+          for (int c = 0; c < 4; ++c)
+            ASSERT_EQ(albedos[static_cast<size_t>(stored.z)].at(stored.x, stored.y, c),
+                      albedo.at(v.x + around.x, v.y + around.y, c));
+          ++(is ? compared : empty);
+        }
+    }
+  }
+  EXPECT_GT(compared, 500);
+  EXPECT_GT(empty, 5000);
+}
+
+// Bricks that a part has been in are those that its voxels are stored in, however the grid's places are
+// turned: around its end and on at its beginning, along each axis and along all. They stay as the grid
+// scrolls, and go with all that is in it.
+TEST_F(ScrollingTest, BricksOfPartsAreWhereTheirVoxelsAreStored) {
+  const voxels::VoxelGrid grid = smallGrid();
+  const glm::ivec3 size = grid.resolution, counts = brickCounts(grid);
+  // In voxels; reaches beyond the grid's high side along z.
+  const glm::dvec3 low(30.3, 3.4, 20.6), high(34.7, 11.2, 29.5);
+  scene::Scene scene;
+  scene::addPart(scene, "moves",
+                 scene::box(grid.origin + low * grid.voxelSize, grid.origin + high * grid.voxelSize),
+                 glm::vec3(0.5F));
+  scene.motions.emplace_back();
+  const auto bricksAt = [&](glm::ivec3 wrap) {
+    std::set<uint32_t> out;
+    const glm::ivec3 last = glm::min(glm::ivec3(high), size - 1);
+    glm::ivec3 v;
+    for (v.z = int(low.z); v.z <= last.z; ++v.z)
+      for (v.y = int(low.y); v.y <= last.y; ++v.y)
+        for (v.x = int(low.x); v.x <= last.x; ++v.x) {
+          const glm::ivec3 brick = (v + wrap) % size / glm::ivec3(32, 8, 8);
+          out.insert(uint32_t(brick.x + counts.x * (brick.y + counts.y * brick.z)));
+        }
+    return out;
+  };
+  const auto listed = [](const MovingBricks& bricks) {
+    const std::vector<uint32_t> list = bricks.list().read<uint32_t>(0, bricks.count());
+    return std::set<uint32_t>(list.begin(), list.end());
+  };
+  for (const glm::ivec3 wrap : {glm::ivec3(0), glm::ivec3(5, 0, 0), glm::ivec3(0, 9, 0), glm::ivec3(0, 0, 4),
+                                glm::ivec3(2, 7, 3), glm::ivec3(36, 16, 25), glm::ivec3(11, 12, 13)}) {
+    MovingBricks bricks(scene, grid);
+    bricks.add(0.0, wrap);
+    EXPECT_EQ(listed(bricks), bricksAt(wrap)) << wrap.x << " " << wrap.y << " " << wrap.z;
+    EXPECT_EQ(bricks.count(), int(bricksAt(wrap).size()));
+  }
+  MovingBricks bricks(scene, grid);
+  bricks.add(0.0, {0, 9, 0});
+  bricks.moveTo(grid, {36, -16, 25});
+  bricks.add(0.0, {5, 0, 0});
+  std::set<uint32_t> both = bricksAt({0, 9, 0});
+  both.merge(bricksAt({5, 0, 0}));
+  EXPECT_EQ(listed(bricks), both);
+  bricks.moveTo(grid, {0, -17, 0});
+  EXPECT_EQ(bricks.count(), 0);
 }
 
 // As a new volume: the bits, and every texel of the attributes.

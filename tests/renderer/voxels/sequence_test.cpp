@@ -305,6 +305,40 @@ TEST_F(IncrementalSequence, AMovedBoxIsFoundAndStartsAnew) {
   EXPECT_GT(run20.counters.at("voxels"), 500.0);
 }
 
+// A jump beyond the box leaves nothing of it, whether it scrolls or not: it is told as a restart, and what is
+// there is what a box that was made at that place has.
+TEST_F(IncrementalSequence, AJumpBeyondTheBoxStartsAnew) {
+  scene::Scene scene = makeScene("moving/box", {{"reach", 0.0}});
+  scene::Camera last = scene.camera.at(0.0), first;
+  last.eye = {1.6, 0.5, 0.2};
+  last.target = last.eye + glm::dvec3(0.3, -1.0, -0.4);
+  for (const glm::dvec3 away : {glm::dvec3(-3.2, 0.0, 0.0), glm::dvec3(-3.2, 0.3, -0.7)}) {
+    first = last;
+    first.eye += away, first.target += away;
+    scene::CameraPath path;
+    path.keys = {{-1.0, first}, {-0.5, first}, {-0.49, last}, {0.0, last}};
+    scene.camera = path;
+    const auto given = [](int frames, const char* move) {
+      return sequence(frames, 0.5,
+                      {{"box", std::string("around_camera")},
+                       {"box.move", std::string(move)},
+                       {"box.extent", 0.3},
+                       {"box.step", int64_t{4}},
+                       {"points.shift", false},
+                       {"resolution", int64_t{40}}});
+    };
+    const Sequence alone = run(scene, "two_stage", given(0, "scroll"));
+    EXPECT_EQ(alone.counters.at("restarts") + alone.counters.at("scrolls"), 0.0);
+    EXPECT_GT(voxels::countOf(alone.voxels), 100);
+    for (const char* move : {"empty", "scroll"}) {
+      const Sequence jumped = run(scene, "two_stage", given(2, move));
+      EXPECT_EQ(jumped.counters.at("restarts"), 1.0) << move;
+      EXPECT_EQ(jumped.counters.at("scrolls"), 0.0) << move;
+      EXPECT_EQ(jumped.voxels, alone.voxels) << move;
+    }
+  }
+}
+
 TEST_F(IncrementalSequence, PointRasterAndComputeHoldTheSameInABoxThatMoves) {
   const scene::Scene scene = passing(40.0);
   int64_t emptied = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/part_motion.h"
@@ -105,10 +106,11 @@ TEST_F(SlicingTest, ACapLosesTheSlicesBeyondIt) {
   }
 }
 
-// Two large triangles through every slice. Along the axis that it faces most a floor has one voxel in each
-// column whose middle it covers: a list of slices holds them all, what a geometry shader may emit does not.
+// Two large triangles through every slice; at 44.49 degrees they face two axes nearly as much. Along the axis
+// that it faces most a floor has one voxel in each column whose middle it covers: a list of slices holds them
+// all, what a geometry shader may emit does not.
 TEST_F(SlicingTest, ASlantedFloorHasHolesByACapAlone) {
-  for (const double degrees : {13.0, 44.0, 71.0}) {
+  for (const double degrees : {13.0, 44.0, 44.49, 71.0}) {
     const double angle = glm::radians(degrees);
     const glm::dvec3 middle(0.013), along{std::cos(angle), std::sin(angle), 0.1}, across{0.02, -0.1, 1.0};
     scene::Scene scene;
@@ -151,6 +153,34 @@ TEST_F(SlicingTest, ThreeViewsAreTheThinSet) {
     EXPECT_EQ(rendered.counter("extra_voxels"), 0.0) << technique;
     EXPECT_LT(rendered.counter("hole_voxels"), 0.002 * thin) << technique;
   }
+}
+
+// Every face in a plane between two voxels: in the one behind it, or in the last one. Of the frame that are
+// 16^3
+// - 14^3 voxels; of the block, whose faces have 4 x 8, 6 x 8 and 6 x 4 voxels, twice as many each, less those
+// that two or three faces on its low sides share: 2 (32 + 48 + 24) - (8 + 4 + 6) + 1. By conservative
+// coverage it is in both: of the block 8 x 6 x 10 voxels less the 4 x 2 x 6 within that it does not touch.
+TEST_F(SlicingTest, AFaceBetweenTwoSlicesIsInOneOfThem) {
+  scene::Scene scene;
+  scene::addPart(scene, "frame", scene::box(glm::dvec3(0.0), glm::dvec3(16.0)), glm::vec3(0.5F));
+  scene::addPart(scene, "block", scene::box({4.0, 4.0, 6.0}, {10.0, 8.0, 14.0}), glm::vec3(0.5F));
+  const Given full{{"vertices", int64_t{128}}};
+  for (const auto& [technique, given] : {std::pair<const char*, Given>{"slicing", full},
+                                         {"pixel_clip", full},
+                                         {"slice_passes", {}},
+                                         {"slice_lists", {}},
+                                         {"bit_masks", {{"views", std::string("all")}}},
+                                         {"binned", {}},
+                                         {"image_store", {{"coverage", std::string("dominant")}}},
+                                         {"image_store", {{"coverage", std::string("thin")}}}})
+    EXPECT_EQ(voxelsOf(scene, (std::string("voxelization/") + technique).c_str(), given), 1352 + 191)
+        << technique;
+  Given conservative = full;
+  conservative["coverage"] = std::string("conservative");
+  EXPECT_EQ(voxelsOf(scene, "voxelization/slicing", conservative), 1352 + 432);
+  EXPECT_EQ(voxelsOf(scene, "voxelization/pixel_clip", conservative), 1352 + 432);
+  EXPECT_EQ(voxelsOf(scene, "voxelization/image_store", {{"coverage", std::string("conservative")}}),
+            1352 + 432);
 }
 
 // Among 512 voxels, where the ends of slices are rounded: no column of a large triangle that passes through

@@ -143,6 +143,23 @@ TEST_F(VoxelizerTest, LeavesNoHoles) {
     EXPECT_FALSE(leadsTo(voxelize(ball, grid, coverage), grid, {0, 0, 0}, {19, 20, 16}));
 }
 
+// Nor through floors of nearly 45 degrees in a grid of many voxels: along an axis that the floor faces a
+// little less than another, its columns are more than a voxel apart, and one voxel in between would be left
+// out.
+TEST_F(VoxelizerTest, LeavesNoHolesInFloorsOfNearly45Degrees) {
+  VoxelGrid grid;
+  grid.resolution = glm::ivec3(320, 2, 320);
+  for (const double less : {1.0 / 512.0, 1.0 / 1100.0, 1.0 / 2048.0, 1.0 / 5000.0})
+    for (const double offset : {0.26, 0.49, 0.61, 0.87}) {
+      const glm::dvec3 middle(160.0 + offset, 1.0, 160.0), along(1.0, 0.0, 1.0 - less);
+      scene::Scene scene;
+      scene::addPart(scene, "floor", scene::card(middle, 400.0 * along, {0.0, 9.0, 0.0}), glm::vec3(0.5F));
+      for (const Coverage coverage : {Coverage::Dominant, Coverage::Thin})
+        EXPECT_FALSE(leadsTo(voxelize(scene, grid, coverage), grid, {300, 0, 20}, {20, 0, 300}))
+            << less << " " << offset << " " << toText(coverage);
+    }
+}
+
 // Whether few triangles share all groups or each is one invocation's: a box, alone and among many small balls
 // elsewhere.
 TEST_F(VoxelizerTest, SharingChangesNothing) {
