@@ -35,10 +35,25 @@ double meanOfPixels(const Image& image) {
 // outline below 4 long number 256 * 4 * 2e-4 / pi = 0.07 on average; one is allowed.
 TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
   const scene::Scene scene = onePoint();
-  for (const char* name : {"visibility_fields/traced_occlusion", "visibility_fields/traced_shadows",
-                           "visibility_fields/ambient_occlusion", "visibility_fields/soft_shadows"}) {
+  struct Choice {
+    const char *name, *path, *near;
+  };
+  for (const auto& [name, path, near] :
+       std::initializer_list<Choice>{{"visibility_fields/traced_occlusion", "", ""},
+                                     {"visibility_fields/traced_shadows", "", ""},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "field"},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "traced"},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "doubtful"},
+                                     {"visibility_fields/soft_shadows", "near", "field"},
+                                     {"visibility_fields/soft_shadows", "near", "traced"},
+                                     {"visibility_fields/soft_shadows", "near", "doubtful"}}) {
     Given fine = {{"rays", int64_t{256}}},
           shared = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}};
+    if (*path)
+      for (Given* given : {&fine, &shared}) {
+        (*given)[path] = std::string(near);
+        if (std::string(near) == "doubtful") (*given)[std::string(path) + ".capacity"] = 1.0;
+      }
     if (std::string(name).find("occlusion") != std::string::npos)
       for (Given* given : {&fine, &shared}) (*given)["radius"] = 10.0;
     const double expected = meanOfPixels(render(scene, name, fine, {4, 4}).product);
