@@ -12,11 +12,11 @@ namespace {
 using FieldRaySetsTest = TechniqueTest;
 
 /// The light is off z = 0, where the axes across the line of sight change their sign from one pixel to the
-/// next. A ball over the ground, and a view so narrow that all pixels see the same point of it, up to 1e-4.
+/// next. A box over the ground, and a view so narrow that all pixels see the same point of it, up to 1e-4.
 scene::Scene onePoint() {
   scene::Scene scene;
   scene::addGround(scene, 8.0);
-  scene::addPart(scene, "ball", scene::sphere({0.3, 0.8, 0.1}, 0.4, 24), glm::vec3(0.5F));
+  scene::addPart(scene, "box", scene::box({-0.15, 0.5, -0.25}, {0.6, 1.1, 0.45}), glm::vec3(0.5F));
   scene.lights = {scene::lightTowards({-0.5, 4.0, 0.3}, {0.0, 0.0, 0.0}, glm::dvec2(2.0))};
   scene::setStillCamera(scene, {{0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.02});
   return scene;
@@ -30,7 +30,7 @@ double meanOfPixels(const Image& image) {
 }
 
 // 4 x 4 pixels with 4 x 4 rays each have the 16 x 16 rays of one pixel together: cell (i + (k + 0.5) / 4) / 4
-// is (4 i + k + 0.5) / 16. Points differ by less than 1e-4 of the distance to the ball, so that a ray within
+// is (4 i + k + 0.5) / 16. Points differ by less than 1e-4 of the distance to the box, so that a ray within
 // 1e-4 of its outline may count either way: of 256 rays over the unit disc, or over the light, those near an
 // outline below 4 long number 256 * 4 * 2e-4 / pi = 0.07 on average; one is allowed.
 TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
