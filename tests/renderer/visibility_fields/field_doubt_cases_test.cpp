@@ -284,6 +284,65 @@ TEST_F(FieldDoubtCasesTest, OwnObjectsAreLeftOutWhereTheyMove) {
   EXPECT_GT(same, 0.95 * pixels());
 }
 
+// Within the sphere of a long box: beside its wall, where the surface is nearer than the stored rays are
+// fine, rays are in doubt without any that are compared; farther away they are as those around disagree.
+// Either leaves less than half of the field's error.
+TEST_F(FieldDoubtCasesTest, NearnessAndDisagreementCountFromWithin) {
+  scene::Scene scene;
+  scene::addGround(scene, 16.0);
+  scene::addPart(scene, "box", scene::box({-0.5, 0.0, -2.0}, {0.0, 0.4, 2.0}), glm::vec3(0.5F));
+  const Given given = {{"rays", int64_t{256}}, {"radius", 10.0}, {"self_occlusion", false}};
+  for (const bool beside : {true, false}) {
+    const double at = beside ? 0.021 : 0.15;
+    scene::setStillCamera(scene, {{at, 2.0 * at, 0.0}, {at, 0.0, 0.0}, {0.0, 0.0, -1.0}, 30.0});
+    const Image exact = render(scene, "visibility_fields/traced_occlusion", given, kCasesPx).product;
+    const double alone = meanDifference(
+        render(scene, kCasesOcclusion, near(kCasesOcclusion, given, "field"), kCasesPx).product, exact);
+    const auto left = [&](double reach, double footprints) {
+      const Given doubtful = near(kCasesOcclusion, given, "doubtful",
+                                  {{"reach", reach}, {"footprints", footprints}, {"capacity", 1.0}});
+      return meanDifference(render(scene, kCasesOcclusion, doubtful, kCasesPx).product, exact) / alone;
+    };
+    EXPECT_NEAR(left(0.0, 0.0), 1.0, 1e-3);
+    if (beside)
+      EXPECT_LT(left(0.0, 1.0), 0.5);
+    else
+      EXPECT_LT(left(1.0, 0.0), 0.5);
+  }
+}
+
+// Between two plates of one object: back from the sphere a ray is known to be blocked by the upper one's top,
+// beyond the falloff's radius, and ahead it meets the lower one, behind its origin. That it meets the upper
+// one's bottom, 0.3 above, only tracing tells: within 0.5 that hides rays at sines up to 0.8. Those of 256
+// rays lie on squares' outlines in the unit disc at 1 / 16, 3 / 16 and so on: up to 11 / 16 there are 12
+// x 12.
+TEST_F(FieldDoubtCasesTest, WhatBlocksAtAnUnknownPlaceIsTraced) {
+  scene::Scene scene;
+  scene::addPart(scene, "receiver", scene::card({0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}, {0.3, 0.0, 0.0}),
+                 glm::vec3(0.5F), scene::Role::ReceiverOnly);
+  scene::Mesh plates = scene::box({-1.0, -0.5, -1.0}, {1.0, -0.3, 1.0});
+  scene::append(plates, scene::box({-1.0, 0.3, -1.0}, {1.0, 0.9, 1.0}));
+  scene::addPart(scene, "plates", plates, glm::vec3(0.5F));
+  scene::setStillCamera(scene, {{0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 40.0});
+  const double diagonal = frame::GpuScene(scene).diagonal();
+  const Given given = {{"rays", int64_t{256}},
+                       {"radius", 0.5 / diagonal},
+                       {"objects", std::string("parts")},
+                       {"positions", int64_t{1090}},
+                       {"directions", int64_t{32}}};
+  const auto mean = [&](const Given& with) {
+    const Image image = render(scene, kCasesOcclusion, with, kCasesPx).product;
+    double sum = 0.0;
+    for (int y = 0; y < kCasesPx.y; ++y)
+      for (int x = 0; x < kCasesPx.x; ++x) sum += image.at(x, y);
+    return sum / pixels();
+  };
+  EXPECT_NEAR(mean(near(kCasesOcclusion, given, "doubtful",
+                        {{"reach", 0.0}, {"footprints", 0.0}, {"capacity", 1.0}})),
+              1.0 - 144.0 / 256.0, 1e-5);
+  EXPECT_GT(mean(near(kCasesOcclusion, given, "field")), 0.9);
+}
+
 // Nothing is there to occlude: a caster without extent has no field.
 TEST_F(FieldDoubtCasesTest, WithoutObjectsNothingIsDark) {
   scene::Scene scene;

@@ -180,7 +180,7 @@ class FieldReflections : public Technique {
 
 const RegisteredTechnique<FieldReflections> kFieldReflectionsRegistered{
     {.name = kFieldReflections,
-     .version = 2,
+     .version = 3,
      .summary = "Perfect and glossy mirrors by rays whose hits are looked up in fields with normals",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-20, VF-21)",
      .product = ProductKind::Colour,
