@@ -340,6 +340,7 @@ TEST_F(FieldDoubtCasesTest, WhatBlocksAtAnUnknownPlaceIsTraced) {
   EXPECT_NEAR(mean(near(kCasesOcclusion, given, "doubtful",
                         {{"reach", 0.0}, {"footprints", 0.0}, {"capacity", 1.0}})),
               1.0 - 144.0 / 256.0, 1e-5);
+  EXPECT_NEAR(mean(near(kCasesOcclusion, given, "traced", {{"footprints", 0.0}})), 1.0 - 144.0 / 256.0, 1e-5);
   EXPECT_GT(mean(near(kCasesOcclusion, given, "field")), 0.9);
 }
 
