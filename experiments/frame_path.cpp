@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -85,6 +86,13 @@ std::shared_ptr<const Image> FramePath::reference(const scene::Scene& scene, dou
       .image;
 }
 
+void FramePath::note(const techniques::Technique* technique) {
+  if (!technique) return;
+  for (std::string& remark : technique->remarks())
+    if (std::find(prepared_.begin(), prepared_.end(), remark) == prepared_.end())
+      remarks_.push_back(std::move(remark));
+}
+
 void FramePath::render(const perception::PathRequest& request, const perception::PathVisitor& visit) {
   const auto* light = std::get_if<perception::LightPath>(&request.path);
   const auto* camera = std::get_if<perception::CameraPath>(&request.path);
@@ -107,7 +115,7 @@ void FramePath::render(const perception::PathRequest& request, const perception:
     const double timeS = camera ? step * camera->stepS : 0.0, share = light ? step * light->step : 0.0;
     if (!frame || light) {
       const bool keep = technique && info.followsLight;
-      if (!keep) technique.reset();
+      if (!keep) note(technique.get()), technique.reset();
       frame.reset();
       if (light) moved.emplace(withLightMoved(onGpu_.scene, share, directionDeg));
       frame =
@@ -115,6 +123,7 @@ void FramePath::render(const perception::PathRequest& request, const perception:
       if (!keep) {
         technique = info.make(run_.technique.values);
         technique->prepare(*frame);
+        prepared_ = technique->remarks();
       }
     }
     frame->setTime(timeS);
@@ -139,6 +148,7 @@ void FramePath::render(const perception::PathRequest& request, const perception:
     if (step > 0) visit(step, seen[static_cast<size_t>((step + 1) % 2)], place);
     frame->end();
   }
+  note(technique.get());
 }
 
 }  // namespace limen::experiments

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/executor.h"
 #include "experiments/reference_cache.h"
 #include "perception/metrics/path.h"
 #include "renderer/frame/scene_on_gpu.h"
 #include "renderer/gl/context.h"
+#include "renderer/techniques/technique.h"
 
 namespace limen::experiments {
 
@@ -24,8 +26,11 @@ class FramePath {
 
   /// Visits every step. Throws Error if the camera is to move and has no path, and like a technique.
   void render(const perception::PathRequest& request, const perception::PathVisitor& visit);
+  /// Of the run's technique, on frames of the path: not those that it had as soon as it was prepared.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
+  void note(const techniques::Technique* technique);
   std::shared_ptr<const Image> reference(const scene::Scene& scene, double timeS, double lightShare,
                                          double directionDeg);
 
@@ -35,6 +40,7 @@ class FramePath {
   const PlannedRun& run_;
   ReferenceCache& references_;
   std::string identity_;
+  std::vector<std::string> prepared_, remarks_;
 };
 
 }  // namespace limen::experiments

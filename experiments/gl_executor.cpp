@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -184,8 +185,7 @@ class GlExecutor : public Executor {
     requireTraits(*run.info, on.onGpu.scene);
     if (plan.timing.firstPicture) timeFirst(run, on);
     prepare(run, on);
-    if (const std::vector<std::string> remarks = run.technique->remarks(); !remarks.empty())
-      run.outcome.sceneFacts["remarks"] = remarks;
+    addRemarks(run.technique->remarks(), run.outcome.sceneFacts);
     Image product;
     std::vector<techniques::Counter> counters;
     {
@@ -217,8 +217,10 @@ class GlExecutor : public Executor {
       if (const ShownSurfaces* surfaces = surfacesFor(plan, on)) evaluated.surfaces = &surfaces->textures();
       const perception::PathRenderer path = [&](const perception::PathRequest& request,
                                                 const perception::PathVisitor& visit) {
-        FramePath(*context_, on.onGpu, on.sizePx, plan, references_, referenceIdentity(plan, on).dump())
-            .render(request, visit);
+        FramePath along(*context_, on.onGpu, on.sizePx, plan, references_,
+                        referenceIdentity(plan, on).dump());
+        along.render(request, visit);
+        addRemarks(along.remarks(), run.outcome.sceneFacts);
       };
       evaluated.path = &path;
       std::shared_ptr<const surfaces::TessellatedSurface> tessellation;
@@ -255,6 +257,13 @@ class GlExecutor : public Executor {
     startAfterwork(run, on, std::move(product), reference, std::move(shown));
     run.timing.emplace(plan.timing,
                        environment_.software || run.info->onCpu ? gl::Clock::Wall : gl::Clock::Gpu);
+  }
+
+  /// Those that are not there yet.
+  static void addRemarks(const std::vector<std::string>& remarks, nlohmann::json& facts) {
+    for (const std::string& remark : remarks)
+      if (nlohmann::json& all = facts["remarks"]; std::find(all.begin(), all.end(), remark) == all.end())
+        all.push_back(remark);
   }
 
   static bool needsTessellation(const PlannedRun& plan) {

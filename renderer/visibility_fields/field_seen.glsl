@@ -89,6 +89,16 @@ vec2 fieldSeenCorner(FieldView view, FieldAsk ask, int map, ivec2 texel) {
   const float distance = ask.from + 2.0 * ask.along * share;
   return share >= 0.0 && distance > ask.least ? vec2(seenAt(view.radius * distance), 0.0) : vec2(1.0);
 }
+
+// Notes what the rays at the corners of the square about a place, in texels, let through; but for `own`, whose ray is looked up anyway.
+void fieldSpreadCorners(FieldView view, FieldAsk ask, int map, vec2 place, ivec2 own) {
+  const ivec2 low = ivec2(floor(place - doubtReach)), high = ivec2(floor(place + doubtReach));
+  if (low != own) fieldSpread(fieldSeenCorner(view, ask, map, low));
+  if (high != own) fieldSpread(fieldSeenCorner(view, ask, map, high));
+  const ivec2 left = ivec2(low.x, high.y), right = ivec2(high.x, low.y);
+  if (left != own) fieldSpread(fieldSeenCorner(view, ask, map, left));
+  if (right != own) fieldSpread(fieldSeenCorner(view, ask, map, right));
+}
 #endif
 
 vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
@@ -97,21 +107,19 @@ vec2 fieldSeenFrom(FieldView view, FieldAsk ask, int map) {
   const vec2 place = float(FIELD_SIDE) * fieldSeenPlace(local) - 0.5;
   const vec2 corner = floor(place), f = place - corner;
   const ivec2 at = ivec2(corner);
+#ifdef FIELD_DOUBT
+  // Half a texel away the corners are those that are read.
+  if (doubtReach > 0.5) fieldSpreadCorners(view, ask, map, place + 0.5, at);
+#endif
   return mix(mix(fieldSeenTexel(view, ask, map, at), fieldSeenTexel(view, ask, map, at + ivec2(1, 0)), f.x),
              mix(fieldSeenTexel(view, ask, map, at + ivec2(0, 1)), fieldSeenTexel(view, ask, map, at + ivec2(1, 1)), f.x), f.y);
 #else
 #ifdef FIELD_DOUBT
   const vec2 middle = float(FIELD_SIDE) * fieldSeenPlace(local);
-  const ivec2 low = ivec2(floor(middle - doubtReach)), high = ivec2(floor(middle + doubtReach)), own = ivec2(middle);
+  const ivec2 own = ivec2(middle);
   const vec2 seen = fieldSeenTexel(view, ask, map, own);
   // Half a texel away one of the corners is the texel itself.
-  if (doubtReach > 0.0) {
-    if (low != own) fieldSpread(fieldSeenCorner(view, ask, map, low));
-    if (high != own) fieldSpread(fieldSeenCorner(view, ask, map, high));
-    const ivec2 left = ivec2(low.x, high.y), right = ivec2(high.x, low.y);
-    if (left != own) fieldSpread(fieldSeenCorner(view, ask, map, left));
-    if (right != own) fieldSpread(fieldSeenCorner(view, ask, map, right));
-  }
+  if (doubtReach > 0.0) fieldSpreadCorners(view, ask, map, middle, own);
   return seen;
 #else
 #if FIELD_DIRECTION_FORM == 2

@@ -48,8 +48,8 @@ class FramePathTest : public testing::Test {
     const frame::SceneOnGpu onGpu(scene);
     ReferenceCache references(folder_.path("references"));
     std::vector<Step> out;
-    FramePath(context(), onGpu, kSizePx, run, references, "run " + run.reference.name)
-        .render(request,
+    FramePath path(context(), onGpu, kSizePx, run, references, "run " + run.reference.name);
+    path.render(request,
                 [&](int step, const perception::PathFrame& before, const perception::PathFrame& now) {
                   EXPECT_EQ(step, static_cast<int>(out.size()) + 1);
                   out.push_back({now.test->read(), now.reference->read(), before.test->read(), 0.0});
@@ -58,11 +58,34 @@ class FramePathTest : public testing::Test {
                     out.back().largestDisplacementPx =
                         std::max(out.back().largestDisplacementPx, std::abs(double{value}));
                 });
+    remarks_ = path.remarks();
     return out;
   }
+  std::vector<std::string> remarks_;  ///< of the path last rendered
 
   analysis::TemporaryFolder folder_;
 };
+
+// What goes wrong in frames of a path alone is told, and nothing that is known as soon as the technique is
+// prepared.
+TEST_F(FramePathTest, RemarksOnItsFramesAreKept) {
+  PlannedRun run;
+  run.reference = technique("visibility_fields/traced_occlusion", {{"rays", int64_t{4}}});
+  for (const double capacity : {0.0001, 1.0}) {
+    run.technique =
+        technique("visibility_fields/ambient_occlusion", {{"rays", int64_t{4}},
+                                                          {"positions", int64_t{82}},
+                                                          {"storage.detail", std::string("by_size")},
+                                                          {"storage.detail.error", 0.0001},
+                                                          {"combine.near", std::string("doubtful")},
+                                                          {"combine.near.capacity", capacity}});
+    render(sceneOf("moving/wheel"), run, {perception::CameraPath{0.5}, kSteps});
+    ASSERT_EQ(remarks_.size(), capacity < 1.0 ? 1U : 0U);
+    if (capacity < 1.0) {
+      EXPECT_NE(remarks_[0].find("doubt"), std::string::npos) << remarks_[0];
+    }
+  }
+}
 
 TEST_F(FramePathTest, MovesTheLightInItsPlane) {
   PlannedRun run;

@@ -36,27 +36,28 @@ const uint kFieldCountsBuffer = 5u;  // kFieldCountSlots numbers of look-ups
 const int kFieldCountSlots = 64;
 
 // Receivers near an object, whose rays are traced (NearReceivers).
-const uint kNearListBuffer = 1u;  // NearListHeader, then words: x + 65536 y of a pixel each
-const int kNearGroup = 64;        // invocations that share a pixel's rays
-struct NearListHeader {           // std430
-  uint pixels;                    // of the list that is being written; 0 between frames
+const uint kNearListBuffer = 1u;   // NearListHeader, then words: x + 65536 y of a pixel each
+const int kNearGroup = 64;         // invocations that share a pixel's rays
+struct NearListHeader {            // std430
+  uint pixels;                     // of the list that is being written; 0 between frames
   uint groupsX, groupsY, groupsZ;  // of an indirect dispatch, one for each pixel listed
   uint listed;
 };
 
 // Rays about which fields are in doubt, which are traced one by one (DoubtfulRays).
 const uint kDoubtListBuffer = 1u;  // DoubtListHeader, then words: number of a ray among those of all pixels
-const uint kDoubtSumsBuffer = 0u;  // two words a pixel, in kDoubtUnit: what its doubtful rays see, traced; looked up
+const uint kDoubtSumsBuffer =
+    0u;  // two words a pixel, in kDoubtUnit: what its doubtful rays see, traced; looked up
 const int kDoubtGroup = 64;
-const float kDoubtUnit = 1048576.0;         // of a ray that sees all; sums of 1024 rays stay below kDoubtCutShort
-const uint kDoubtCutShort = 0x80000000u;    // in a sum: some ray was cut short
-struct DoubtListHeader {                    // std430
-  uint rays;                                // of the list that is being written; 0 between frames
-  uint groupsX, groupsY, groupsZ;           // of an indirect dispatch, for the rays listed
-  uint listed;                              // 0 if there were more than fit
+const float kDoubtUnit = 1048576.0;  // of a ray that sees all; sums of 1024 rays stay below kDoubtCutShort
+const uint kDoubtCutShort = 0x80000000u;  // in a sum: some ray was cut short
+struct DoubtListHeader {                  // std430
+  uint rays;                              // of the list that is being written; 0 between frames
+  uint groupsX, groupsY, groupsZ;         // of an indirect dispatch, for the rays listed
+  uint listed;                            // 0 if there were more than fit
   uint found;
-  uint overflow;                            // 1: there were more than fit
-  uint unused;
+  uint overflow;  // 1: there were more than fit
+  uint most;      // found in any frame since the list was made
 };
 
 const int kFalloffBinary = 0;

@@ -61,10 +61,14 @@ class FieldTechnique : public Technique {
     std::vector<Counter> out =
         reader_.count(frame, [&](const gl::Buffer& counts) { run(frame, *counting_, &counts); });
     out.push_back(near_.count(frame));
-    for (Counter& counter : doubtful_.count(frame)) out.push_back(std::move(counter));
+    for (Counter& counter : doubtful_.count()) out.push_back(std::move(counter));
     return out;
   }
-  std::vector<std::string> remarks() const override { return reader_.remarks(); }
+  std::vector<std::string> remarks() const override {
+    std::vector<std::string> out = reader_.remarks();
+    for (std::string& remark : doubtful_.remarks()) out.push_back(std::move(remark));
+    return out;
+  }
   static std::vector<Quantity> quantities() {
     std::vector<Quantity> out = FieldReader::quantities();
     out.push_back(NearReceivers::quantity());

@@ -40,7 +40,7 @@ void LobeRays::check() const {
                 "give " + std::to_string(side() * side()));
 }
 
-void LobeReflections::prepare(frame::Frame& frame, bool fieldHits, bool foundStarts) {
+void LobeReflections::prepare(frame::Frame& frame, bool fieldHits, bool foundStarts, int64_t treeBytes) {
   gl::ProgramCache& programs = frame.context().programs();
   gl::ShaderDefines defines = frame::surfaceDefines(frame, true);
   if (foundStarts) defines["FIELD_PRIMARY"] = "1";
@@ -51,7 +51,7 @@ void LobeReflections::prepare(frame::Frame& frame, bool fieldHits, bool foundSta
   directions_.emplace(gl::Format::RGBA32F, frame.sizePx(), 1, static_cast<int>(rays_.rays));
   reflected_.emplace(gl::Format::RGBA32F, frame.sizePx());
   frame.passes().setBytesHeld(pass_ + "/rays", directions_->bytes());
-  frame.passes().setBytesHeld(pass_ + "/shade", reflected_->bytes());
+  frame.passes().setBytesHeld(pass_ + "/shade", reflected_->bytes() + treeBytes);
   picture_.prepare(frame);
 }
 

@@ -36,8 +36,9 @@ class LobeReflections {
   LobeReflections(const LobeRays& rays, const frame::ShadedSetting& shading, std::string pass)
       : rays_(rays), shading_(shading), pass_(std::move(pass)), picture_(shading) {}
 
-  /// `fieldHits`: objects are found in fields; `foundStarts`: there will be LobeStart::normals.
-  void prepare(frame::Frame& frame, bool fieldHits, bool foundStarts);
+  /// `fieldHits`: objects are found in fields; `foundStarts`: there will be LobeStart::normals; `treeBytes`:
+  /// of the tree that shade() traces.
+  void prepare(frame::Frame& frame, bool fieldHits, bool foundStarts, int64_t treeBytes);
   void makeRays(frame::Frame& frame, const LobeStart& start);
   /// `hits`: of fields, or null; `tree`: of the triangles that have none, null: the whole scene's.
   void shade(frame::Frame& frame, const LobeStart& start, const gl::Texture* hits,

@@ -4,6 +4,19 @@
 #include "renderer/ray_tracing/ray_scene.h"
 
 namespace limen::techniques {
+namespace {
+
+/// Whether a part that moves has one of them; those left out have no area.
+bool anyMoves(const scene::Scene& scene, const std::vector<glm::uvec3>& triangles) {
+  for (const scene::PartMotion& motion : scene.motions) {
+    const scene::Part& part = scene.parts[motion.part];
+    for (uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i)
+      if (triangles[i] != glm::uvec3(triangles[i].x)) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::vector<glm::vec3> anchoredVertices(const frame::Frame& frame) {
   std::vector<glm::vec3> out;
@@ -12,7 +25,7 @@ std::vector<glm::vec3> anchoredVertices(const frame::Frame& frame) {
 }
 
 TracedTriangles::TracedTriangles(frame::Frame& frame, const std::vector<glm::uvec3>& triangles) {
-  if (frame.scene().motions.empty()) {
+  if (!anyMoves(frame.scene(), triangles)) {
     tree_ = std::make_unique<ray_tracing::RayScene>(frame.context(), anchoredVertices(frame), triangles);
     return;
   }

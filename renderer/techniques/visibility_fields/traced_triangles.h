@@ -14,8 +14,8 @@
 
 namespace limen::techniques {
 
-/// A tree over some of the scene's triangles, numbered as in the scene; where parts move it is built anew in
-/// each frame.
+/// A tree over some of the scene's triangles, numbered as in the scene; if any of them move it is built anew
+/// in each frame.
 class TracedTriangles {
  public:
   /// `triangles`: of the scene, those left out without area.
@@ -24,11 +24,12 @@ class TracedTriangles {
   /// Before a pass is opened, in each frame.
   void update(frame::Frame& frame) const;
   const ray_tracing::RayTree& tree() const { return *tree_; }
-  int64_t bytes() const { return tree_->bytes() + (indices_ ? indices_->bytes() : 0); }
+  /// But for those of a tree that is built anew, which the passes that build it hold.
+  int64_t bytes() const { return rebuilt_ ? indices_->bytes() : tree_->bytes(); }
 
  private:
   std::unique_ptr<ray_tracing::RayTree> tree_;
-  const ray_tracing::RebuiltTree* rebuilt_ = nullptr;  ///< `tree_`, if parts move
+  const ray_tracing::RebuiltTree* rebuilt_ = nullptr;  ///< `tree_`, if triangles move
   std::optional<gl::Buffer> indices_;                  ///< of the triangles, for it
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -194,6 +195,43 @@ TEST_F(FieldMotionTest, ReflectionsFollowObjectsThatTurnAndShift) {
         ++at;
       },
       kSize);
+}
+
+// What has no field is traced. As long as it rests its tree is made once, so that a frame's cost does not
+// know of the objects' triangles; the tracer's own tree is made anew. Bytes are those of each pass, each
+// once.
+TEST_F(FieldMotionTest, OnlyTreesOfWhatMovesAreBuiltAnew) {
+  constexpr glm::ivec2 kSize{16, 12};
+  const scene::Scene scene =
+      makeScene("mirrors/ellipsoid", {{"tessellation", int64_t{24}}, {"motion", std::string("moving")}});
+  const auto passesOf = [&](const char* technique) {
+    const TechniqueInfo& info = TechniqueRegistry::instance().get(technique);
+    const frame::GpuScene gpuScene(scene);
+    frame::Frame frame(context(), scene, gpuScene, kSize);
+    const auto made = info.make(ParameterValues(info.parameters, {{"rays", int64_t{1}}}));
+    made->prepare(frame);
+    for (const double time : {0.0, 0.5}) {
+      frame.setTime(time);
+      frame.begin();
+      made->render(frame);
+      frame.end();
+    }
+    std::map<std::string, gl::PassList::Pass> out;
+    for (const gl::PassList::Pass& pass : frame.passes().passes()) out[pass.name] = pass;
+    return out;
+  };
+  const auto fields = passesOf("visibility_fields/reflections"),
+             traced = passesOf("visibility_fields/traced_reflections");
+  for (const auto& [name, pass] : fields) EXPECT_NE(name.rfind("ray_tracing/", 0), 0U) << name;
+  ASSERT_TRUE(traced.count("ray_tracing/sort"));
+  EXPECT_TRUE(traced.at("ray_tracing/sort").ran);
+  // Beside the picture of 16 bytes a pixel: 12 bytes for the corners of each triangle.
+  const auto triangles = static_cast<int64_t>(scene.mesh.triangles.size());
+  EXPECT_EQ(traced.at("visibility_fields/traced_reflections/shade").bytesHeld,
+            16 * kSize.x * kSize.y + 12 * triangles);
+  // And 4 for the number of its object.
+  EXPECT_EQ(passesOf("visibility_fields/traced_occlusion").at("visibility_fields/traced_occlusion").bytesHeld,
+            16 * kSize.x * kSize.y + 16 * triangles);
 }
 
 // As for pixels, with vertices 2 / 64 apart, between which values are interpolated: (2 / 64)^2 / 8 of the

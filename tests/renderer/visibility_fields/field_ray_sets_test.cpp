@@ -12,11 +12,11 @@ namespace {
 using FieldRaySetsTest = TechniqueTest;
 
 /// The light is off z = 0, where the axes across the line of sight change their sign from one pixel to the
-/// next. A ball over the ground, and a view so narrow that all pixels see the same point of it, up to 1e-4.
+/// next. A box over the ground, and a view so narrow that all pixels see the same point of it, up to 1e-4.
 scene::Scene onePoint() {
   scene::Scene scene;
   scene::addGround(scene, 8.0);
-  scene::addPart(scene, "ball", scene::sphere({0.3, 0.8, 0.1}, 0.4, 24), glm::vec3(0.5F));
+  scene::addPart(scene, "box", scene::box({-0.15, 0.5, -0.25}, {0.6, 1.1, 0.45}), glm::vec3(0.5F));
   scene.lights = {scene::lightTowards({-0.5, 4.0, 0.3}, {0.0, 0.0, 0.0}, glm::dvec2(2.0))};
   scene::setStillCamera(scene, {{0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.02});
   return scene;
@@ -30,15 +30,30 @@ double meanOfPixels(const Image& image) {
 }
 
 // 4 x 4 pixels with 4 x 4 rays each have the 16 x 16 rays of one pixel together: cell (i + (k + 0.5) / 4) / 4
-// is (4 i + k + 0.5) / 16. Points differ by less than 1e-4 of the distance to the ball, so that a ray within
+// is (4 i + k + 0.5) / 16. Points differ by less than 1e-4 of the distance to the box, so that a ray within
 // 1e-4 of its outline may count either way: of 256 rays over the unit disc, or over the light, those near an
 // outline below 4 long number 256 * 4 * 2e-4 / pi = 0.07 on average; one is allowed.
 TEST_F(FieldRaySetsTest, PixelsOfASquareHaveTheFinerSetTogether) {
   const scene::Scene scene = onePoint();
-  for (const char* name : {"visibility_fields/traced_occlusion", "visibility_fields/traced_shadows",
-                           "visibility_fields/ambient_occlusion", "visibility_fields/soft_shadows"}) {
+  struct Choice {
+    const char *name, *path, *near;
+  };
+  for (const auto& [name, path, near] :
+       std::initializer_list<Choice>{{"visibility_fields/traced_occlusion", "", ""},
+                                     {"visibility_fields/traced_shadows", "", ""},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "field"},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "traced"},
+                                     {"visibility_fields/ambient_occlusion", "combine.near", "doubtful"},
+                                     {"visibility_fields/soft_shadows", "near", "field"},
+                                     {"visibility_fields/soft_shadows", "near", "traced"},
+                                     {"visibility_fields/soft_shadows", "near", "doubtful"}}) {
     Given fine = {{"rays", int64_t{256}}},
           shared = {{"rays", int64_t{16}}, {"pattern", std::string("interleaved")}};
+    if (*path)
+      for (Given* given : {&fine, &shared}) {
+        (*given)[path] = std::string(near);
+        if (std::string(near) == "doubtful") (*given)[std::string(path) + ".capacity"] = 1.0;
+      }
     if (std::string(name).find("occlusion") != std::string::npos)
       for (Given* given : {&fine, &shared}) (*given)["radius"] = 10.0;
     const double expected = meanOfPixels(render(scene, name, fine, {4, 4}).product);

@@ -98,6 +98,27 @@ TEST_F(FieldReflectionTest, AMirrorShowsABallWithItsShading) {
   EXPECT_LT(double(far) / double(shown), 0.06);
 }
 
+// Slack tells an object's own surface from what blocks its rays: on a mirror without a field, within the
+// sphere of a box that stands on it, none is needed, however large, and what is near to the box is shown.
+TEST_F(FieldReflectionTest, ReceiversOfOtherObjectsHaveNoSlack) {
+  scene::Scene scene;
+  scene::Material mirror = mirrorMaterial(1.0F);
+  mirror.albedo = glm::vec3(0.0F);
+  scene::addPart(scene, scene::planeGrid(glm::dvec3(0.0), 6.0, 6.0, 2), mirror);
+  scene.parts.back().receiverOnly = true;
+  scene::addPart(scene, "box", scene::box({-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}), glm::vec3(0.5F));
+  scene.lights = {scene::lightTowards({0.0, 6.0, 3.0}, {0.0, 0.0, 0.0}, glm::dvec2(0.1))};
+  scene::setStillCamera(scene, {{0.0, 0.6, 1.6}, {0.0, 0.0, 0.6}, {0.0, 1.0, 0.0}, 20.0});
+  Given given = {{"rays", int64_t{1}}, {"positions", int64_t{1090}}};
+  const Image without = render(scene, kFieldMirrors, given, {40, 30}).product;
+  given["slack"] = 20.0;
+  EXPECT_EQ(meanDifference(without, render(scene, kFieldMirrors, given, {40, 30}).product), 0.0);
+  const Image exact = render(scene, kTracedMirrors, {{"rays", int64_t{1}}}, {40, 30}).product;
+  // But for the box's outlines, within half a footprint, 0.06 radii of 0.87, of 1.2 across the view: a
+  // twentieth.
+  EXPECT_LT(differing(without, exact, 0.02).count, 0.05 * 40 * 30);
+}
+
 // The switch: fields for rays from the eye as well put mirrors where their positions are, so that the error
 // grows.
 TEST_F(FieldReflectionTest, LookingUpRaysFromTheEyeShowsThePattern) {

@@ -86,6 +86,46 @@ TEST_F(FieldShadowTest, BallsShadeASphericalLightAsGeometrySays) {
   }
 }
 
+// Under the edge of a plate at a quarter of the light's height, a ray to the light's point at l passes it at
+// 3/4 x + 1/4 l: of the light's disc what lies beyond -3 x is hidden, a segment. The edge cuts up to 2 * 32
+// of 1024 cells, each of which may count either way: three deviations are 3 * 0.5 * sqrt(64) / 1024 = 0.012;
+// the disc leans by up to 0.05, which moves its points by 0.002 of its radius.
+TEST_F(FieldShadowTest, TheLightIsAsLargeAsItSays) {
+  scene::Scene scene;
+  scene::addGround(scene, 6.0);
+  scene::addPart(scene, "plate", scene::card({1.0, 1.0, 0.0}, {0.0, 0.0, 2.0}, {1.0, 0.0, 0.0}),
+                 glm::vec3(0.5F));
+  scene.lights = {scene::lightTowards(kLight, {0.0, 0.0, 0.0}, glm::dvec2(2.0 * kLightRadius))};
+  constexpr double kHeight = 0.5, kHalf = 0.15;
+  scene::setStillCamera(scene, {{0.0, kHeight, 0.0},
+                                {0.0, 0.0, 0.0},
+                                {0.0, 0.0, -1.0},
+                                2.0 * glm::degrees(std::atan(kHalf / kHeight))});
+  const Image found = render(scene, kTracedShadows, {{"rays", int64_t{1024}}}, {32, 32}).product;
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) {
+      const double at = (2.0 * (x + 0.5) / 32.0 - 1.0) * kHalf,
+                   u = glm::clamp(-3.0 * at / kLightRadius, -1.0, 1.0);
+      ASSERT_NEAR(found.at(x, y), 0.5 + (std::asin(u) + u * std::sqrt(1.0 - u * u)) / M_PI, 0.015)
+          << x << ' ' << y;
+    }
+}
+
+// What is beyond the light hides nothing of it, looked up or traced, near or in doubt.
+TEST_F(FieldShadowTest, WhatIsBeyondTheLightCastsNoShadow) {
+  scene::Scene scene = ballsUnderALight();
+  scene.lights = {scene::lightTowards({0.0, 0.6, 0.0}, {0.0, 0.0, 0.0}, glm::dvec2(0.1))};
+  for (const char* near : {"field", "traced", "doubtful"})
+    for (const float value :
+         render(scene, kFieldShadows,
+                {{"rays", int64_t{16}}, {"near", std::string(near)}, {"objects", std::string("parts")}},
+                kShadowSizePx)
+             .product.data)
+      ASSERT_EQ(value, 1.0F) << near;
+  for (const float value : render(scene, kTracedShadows, {{"rays", int64_t{16}}}, kShadowSizePx).product.data)
+    ASSERT_EQ(value, 1.0F);
+}
+
 // The scene's own light, against rays of another tracer to other points of it: 256 cells against 1024, as
 // above.
 TEST_F(FieldShadowTest, RaysToARectangleAgreeWithEmbree) {

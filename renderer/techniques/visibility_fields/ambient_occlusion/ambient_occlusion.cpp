@@ -94,7 +94,7 @@ struct FieldOcclusionSettings {
 
 const RegisteredTechnique<FieldTechnique<FieldOcclusionSettings>> kFieldOcclusion{
     {.name = "visibility_fields/ambient_occlusion",
-     .version = 4,
+     .version = 5,
      .summary = "Ambient occlusion by rays whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, sections 4.4 to 4.7 (VF-01 to VF-18)",
      .product = ProductKind::Colour,

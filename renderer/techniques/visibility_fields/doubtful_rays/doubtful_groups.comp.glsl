@@ -10,6 +10,7 @@ const uint kGroupsInRow = 32768u;  // a dimension has at most 65,535
 
 void main() {
   doubtList.found = doubtList.rays;
+  doubtList.most = max(doubtList.most, doubtList.found);
   doubtList.overflow = doubtList.found > doubtCapacity ? 1u : 0u;
   doubtList.listed = doubtList.overflow != 0u ? 0u : doubtList.found;
   doubtList.rays = 0u;

@@ -2,6 +2,7 @@
 #include "renderer/techniques/visibility_fields/doubtful_rays/doubtful_rays.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +53,17 @@ void DoubtfulRays::prepare(frame::Frame& frame, const std::string& shader, const
     throw Error(
         "the picture has " + std::to_string(rays) + " rays, more than are counted for 'near: doubtful'",
         "rays", "use fewer 'rays', or a smaller image");
-  raysPerPx_ = raysPerPx;
+  raysPerPx_ = raysPerPx, allRays_ = static_cast<double>(rays);
   capacity_ = static_cast<uint32_t>(
       std::min(std::ceil(setting_->capacity * static_cast<double>(rays)), static_cast<double>(rays)));
-  list_.emplace(static_cast<int64_t>(sizeof(DoubtListHeader)) + int64_t{4} * capacity_, nullptr);
+  const int64_t bytes = static_cast<int64_t>(sizeof(DoubtListHeader)) + int64_t{4} * capacity_;
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (bytes > most)
+    throw Error("a list of doubtful rays takes " + std::to_string(bytes) +
+                    " bytes in one buffer; this device allows " + std::to_string(most),
+                "capacity", "give less 'capacity', use fewer 'rays', or a smaller image");
+  list_.emplace(bytes, nullptr);
   list_->clearUint(0);
   sums_.emplace(int64_t{8} * pixels, nullptr);
   sums_->clearUint(0);
@@ -97,12 +105,23 @@ void DoubtfulRays::addSums(frame::Frame& frame, const gl::Texture& picture) cons
                   GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-std::vector<Counter> DoubtfulRays::count(const frame::Frame& frame) const {
+std::vector<Counter> DoubtfulRays::count() const {
   if (!traced()) return {};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const auto header = list_->read<DoubtListHeader>(0, 1)[0];
-  const double rays = double(frame.sizePx().x) * frame.sizePx().y * double(raysPerPx_);
-  return {{"doubtful_ray_share", header.found / rays}, {"doubtful_overflow", double(header.overflow)}};
+  return {{"doubtful_ray_share", header.found / allRays_}, {"doubtful_overflow", double(header.overflow)}};
+}
+
+std::vector<std::string> DoubtfulRays::remarks() const {
+  if (!list_) return {};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const uint32_t most = list_->read<DoubtListHeader>(0, 1)[0].most;
+  if (most <= capacity_) return {};
+  return {fmt::format(
+      "more rays were in doubt than the list of 'near: doubtful' takes, {:.4f} of all in one frame: where "
+      "that "
+      "was so none was traced, and the picture is that of 'near: field'; give a 'capacity' above it",
+      most / allRays_)};
 }
 
 std::vector<Quantity> DoubtfulRays::quantities() {

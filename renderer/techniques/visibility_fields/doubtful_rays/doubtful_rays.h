@@ -28,7 +28,7 @@ class DoubtfulRays {
   bool traced() const { return setting_.has_value(); }
 
   /// `shader`: traces listed rays; `defines`: of that shader; `format`: of the picture. Throws Error if there
-  /// are more rays than can be counted.
+  /// are more rays than can be counted, or more than the device can list.
   void prepare(frame::Frame& frame, const std::string& shader, const gl::ShaderDefines& defines,
                gl::Format format, int64_t raysPerPx);
   /// To be added to the defines of a program that includes doubtful_list.glsl.
@@ -51,8 +51,10 @@ class DoubtfulRays {
   int64_t bytesHeld() const { return list_ ? list_->bytes() + sums_->bytes() : 0; }
 
   /// Of the frame last rendered; waits for the GPU.
-  std::vector<Counter> count(const frame::Frame& frame) const;
+  std::vector<Counter> count() const;
   static std::vector<Quantity> quantities();
+  /// Of all frames rendered so far: whether the list was too short; waits for the GPU.
+  std::vector<std::string> remarks() const;
 
  private:
   void makeGroups() const;
@@ -62,6 +64,7 @@ class DoubtfulRays {
   std::optional<DoubtfulTraced> setting_;
   uint32_t capacity_ = 0;
   int64_t raysPerPx_ = 1;
+  double allRays_ = 1.0;
   std::optional<gl::Buffer> list_, sums_;
   const gl::Program *groups_ = nullptr, *program_ = nullptr, *adding_ = nullptr;
 };

@@ -22,7 +22,7 @@ void main() {
     for (int i = 0; i < rayCount; ++i) {
       const vec4 ray = texelFetch(directions, ivec3(pixel, i), 0);
       if (ray.w == 0.0) continue;
-      const ObjectHit hit = nearestObject(origin.xyz, ray.xyz, kFieldNoObject, without);
+      const ObjectHit hit = nearestObject(origin.xyz, ray.xyz, kFieldNoObject, without, own);
       imageStore(hits, ivec3(pixel, i),
                  uvec4(floatBitsToUint(hit.distance), fieldNormalCode(hit.normal, 16), hit.albedo, 0u));
     }

@@ -23,7 +23,7 @@ void main() {
     const uint own = objectOf[texelFetch(triangleIds, pixel, 0).x];
     if (own != kFieldNoObject) {
       const vec3 direction = normalize(origin.xyz - eyePosition);
-      const ObjectHit hit = nearestObject(eyePosition, direction, own, kFieldNoObject);
+      const ObjectHit hit = nearestObject(eyePosition, direction, own, kFieldNoObject, kFieldNoObject);
       if (hit.distance < 0.0) {
         origin = vec4(0.0);
       } else {

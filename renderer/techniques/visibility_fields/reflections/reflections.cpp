@@ -100,7 +100,7 @@ class FieldReflections : public Technique {
     gl::ShaderDefines defines = reader_.defines();
     hitsProgram_ = &programs.compute(folder + "field_hits.comp.glsl", defines);
     hits_.emplace(gl::Format::RGBA32UI, frame.sizePx(), 1, static_cast<int>(settings_.rays.rays));
-    int64_t bytes = hits_->bytes() + reader_.bytesHeld() + others_->bytes();
+    int64_t bytes = hits_->bytes() + reader_.bytesHeld();
     if (settings_.primary == PrimaryRays::Field) {
       primaryProgram_ = &programs.compute(folder + "field_primary.comp.glsl", defines);
       for (auto* texture : {&origins_, &mirrored_, &normals_})
@@ -108,7 +108,7 @@ class FieldReflections : public Technique {
     }
     defines["COUNT"] = "1";
     countingProgram_ = &programs.compute(folder + "field_hits.comp.glsl", defines);
-    lobes_.prepare(frame, true, primaryProgram_ != nullptr);
+    lobes_.prepare(frame, true, primaryProgram_ != nullptr, others_->bytes());
     frame.passes().setBytesHeld(std::string(kFieldReflections) + "/look_up", bytes);
   }
 
@@ -180,7 +180,7 @@ class FieldReflections : public Technique {
 
 const RegisteredTechnique<FieldReflections> kFieldReflectionsRegistered{
     {.name = kFieldReflections,
-     .version = 2,
+     .version = 3,
      .summary = "Perfect and glossy mirrors by rays whose hits are looked up in fields with normals",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-20, VF-21)",
      .product = ProductKind::Colour,

@@ -35,7 +35,7 @@ struct FieldShadowSettings {
 
 const RegisteredTechnique<FieldTechnique<FieldShadowSettings>> kFieldShadows{
     {.name = "visibility_fields/soft_shadows",
-     .version = 4,
+     .version = 5,
      .summary = "Soft shadows by rays to a light whose distances are looked up in fields around objects",
      .source = "Gaitatzes 2012, section 4.7.2 (VF-19)",
      .product = ProductKind::Visibility,

@@ -3,6 +3,7 @@
 // rays. Source: Gaitatzes 2012, section 4.7.2 (MT-01, BL-02).
 #include <optional>
 
+#include "renderer/ray_tracing/ray_scene.h"
 #include "renderer/techniques/technique.h"
 #include "renderer/techniques/visibility_fields/lobe_rays.h"
 #include "renderer/techniques/visibility_fields/traced_triangles.h"
@@ -28,11 +29,9 @@ class TracedLobeReflections : public Technique {
 
   void prepare(frame::Frame& frame) override {
     // Where nothing moves, the tree that techniques share.
-    if (frame.scene().motions.empty())
-      frame.gpuScene().rays(frame.context());
-    else
-      moving_.emplace(frame, frame.scene().mesh.triangles);
-    lobes_.prepare(frame, false, false);
+    if (!frame.scene().motions.empty()) moving_.emplace(frame, frame.scene().mesh.triangles);
+    lobes_.prepare(frame, false, false,
+                   moving_ ? moving_->bytes() : frame.gpuScene().rays(frame.context()).bytes());
   }
   void render(frame::Frame& frame) override {
     const frame::MirrorRays& exact = frame.get<frame::MirrorRays>();
