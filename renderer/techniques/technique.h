@@ -65,8 +65,8 @@ class Technique {
   /// after render().
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
   /// What a reader of the run's record should know, one sentence each: choices that the technique made
-  /// itself, with their reasons, and what went
-  /// wrong in frames rendered so far. Valid after prepare(); may wait for the GPU.
+  /// itself, with their reasons, and what went wrong in frames rendered so far. Valid after prepare(); asked
+  /// for again after frames were timed. May wait for the GPU. Throws Error if frames were wrong.
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Named intermediate images for the viewer and for artefacts; valid after render().
   virtual std::map<std::string, const gl::Texture*> debugViews() const { return {}; }

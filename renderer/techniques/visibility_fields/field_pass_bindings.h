@@ -46,8 +46,8 @@ struct NearListHeader {            // std430
 
 // Rays about which fields are in doubt, which are traced one by one (DoubtfulRays).
 const uint kDoubtListBuffer = 1u;  // DoubtListHeader, then words: number of a ray among those of all pixels
-const uint kDoubtSumsBuffer =
-    0u;  // two words a pixel, in kDoubtUnit: what its doubtful rays see, traced; looked up
+// Two words a pixel, in kDoubtUnit: what its doubtful rays see, traced; looked up.
+const uint kDoubtSumsBuffer = 0u;
 const int kDoubtGroup = 64;
 const float kDoubtUnit = 1048576.0;  // of a ray that sees all; sums of 1024 rays stay below kDoubtCutShort
 const uint kDoubtCutShort = 0x80000000u;  // in a sum: some ray was cut short
