@@ -98,6 +98,7 @@ const SettingsTable<StepSettings>& StepSettings::table() {
        "Dispatches that steps are done in, with the same result: all in one where the device keeps its "
        "groups running, one each elsewhere",
        "the bench's own"},
+      {&S::bounces, "bounces", "How often light is reflected", "Gaitatzes 2012, section 5.6"},
       {&S::stopBelow,
        "stop_below",
        {0.0, 1.0},
@@ -140,7 +141,6 @@ const SettingsTable<LightGridSettings>& LightGridSettings::table() {
       {&S::coverage, "coverage", "Which voxels a triangle fills"},
       {&S::box, "box", "Where voxels are"},
       {&S::update, "update", "What is made anew in a frame", "Gaitatzes 2012, section 5.7"},
-      {&S::bounces, "bounces", "How often light is reflected", "Gaitatzes 2012, section 5.6"},
       {&S::injection, "injection", "How light is put in"}};
   return kTable;
 }

@@ -141,6 +141,7 @@ using GridBounces = std::variant<AllBounces, LimitedBounces>;
 struct StepSettings {
   LightSources sources = LightSources::Steady;
   StepDispatch dispatch;
+  GridBounces bounces;
   double stopBelow = 0.0;
   static const SettingsTable<StepSettings>& table();
   void check() const;
@@ -156,7 +157,6 @@ struct LightGridSettings {
   voxels::Coverage coverage = voxels::Coverage::Thin;
   GridBox box;
   GridUpdate update;
-  GridBounces bounces;
   InjectionSettings injection;
   static const SettingsTable<LightGridSettings>& table();
   void check() const;
@@ -166,7 +166,7 @@ struct LightGridSettings {
   }
   /// Fields that light goes through one after another.
   int generations() const {
-    const auto* limited = std::get_if<LimitedBounces>(&bounces);
+    const auto* limited = std::get_if<LimitedBounces>(&steps.bounces);
     return limited ? limited->most : 1;
   }
   /// Whether what arrives is added up.

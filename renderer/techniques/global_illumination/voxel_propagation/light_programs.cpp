@@ -54,7 +54,7 @@ LightPrograms::LightPrograms(frame::Frame& frame, const LightGridSettings& setti
   if (frame.scene().traits().count("refractive_materials") != 0) defines["TRANSPARENT"] = "1";
   if (settings.format == FieldFormat::Half) defines["FIELD_HALF"] = "1";
   if (settings.generations() > 1) reflect = &step(frame, "reflect.comp.glsl", defines);
-  if (std::holds_alternative<LimitedBounces>(settings.bounces)) defines["ABSORBS"] = "1";
+  if (std::holds_alternative<LimitedBounces>(settings.steps.bounces)) defines["ABSORBS"] = "1";
   stepDefines_ = defines;
   propagate = &step(frame, "propagate.comp.glsl", defines);
 }

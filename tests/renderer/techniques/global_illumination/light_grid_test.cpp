@@ -75,7 +75,7 @@ TEST_F(LightGridTest, CountsTheStepsOfAllBounces) {
   const scene::Scene scene = makeScene("global_illumination/room");
   const Given steps = {{"resolution", int64_t{8}}, {"iterations", int64_t{3}}};
   Given limited = steps;
-  limited["bounces"] = std::string("limited"), limited["bounces.most"] = int64_t{3};
+  limited["steps.bounces"] = std::string("limited"), limited["steps.bounces.most"] = int64_t{3};
   EXPECT_EQ(indirect(scene, limited, true).counter("voxel_steps"),
             3.0 * indirect(scene, steps, true).counter("voxel_steps"));
 }
@@ -94,8 +94,8 @@ TEST_F(LightGridTest, LimitedBouncesAreThoseOfPathsInAClosedBox) {
     term *= albedo;
     sum += term;
     const double before = found;
-    found = meanOf(indirect(box, {{"bounces", std::string("limited")},
-                                  {"bounces.most", most},
+    found = meanOf(indirect(box, {{"steps.bounces", std::string("limited")},
+                                  {"steps.bounces.most", most},
                                   {"iterations", int64_t{128}},
                                   {"format", std::string("32f")}})
                        .product,

@@ -138,7 +138,7 @@ TEST_F(VoxelPropagationLight, ALimitOnBouncesEndsTheSum) {
   for (const LightSources sources : {LightSources::Once, LightSources::Steady})
     for (const int most : {1, 2, 4}) {
       LightGridSettings settings;
-      settings.resolution = 12, settings.iterations = 128, settings.bounces = LimitedBounces{most};
+      settings.resolution = 12, settings.iterations = 128, settings.steps.bounces = LimitedBounces{most};
       settings.steps.sources = sources, settings.format = FieldFormat::Single;
       const frame::GpuScene gpuScene(box);
       frame::Frame frame(context(), box, gpuScene, {8, 8});
@@ -174,7 +174,7 @@ TEST_F(VoxelPropagationLight, EachBounceAddsWhatItAddsToPaths) {
     };
     for (int64_t most = 1; most <= 3; ++most) {
       const Image limited =
-          indirect(scene, {{"bounces", std::string("limited")}, {"bounces.most", most}}).product;
+          indirect(scene, {{"steps.bounces", std::string("limited")}, {"steps.bounces.most", most}}).product;
       const Image paths =
           render(scene, "global_illumination/path_reference",
                  {{"paths", int64_t{64}}, {"bounces", most}, {"light", std::string("indirect")}}, {32, 24})
@@ -196,8 +196,8 @@ TEST_F(VoxelPropagationLight, BouncesGoOnFromFrameToFrame) {
   const scene::Scene scene = makeScene("global_illumination/room");
   const Given base = {{"resolution", int64_t{12}},
                       {"format", std::string("32f")},
-                      {"bounces", std::string("limited")},
-                      {"bounces.most", int64_t{3}}};
+                      {"steps.bounces", std::string("limited")},
+                      {"steps.bounces.most", int64_t{3}}};
   const auto with = [&](const char* update, int64_t iterations) {
     Given given = base;
     given["update"] = std::string(update), given["iterations"] = iterations;
