@@ -19,7 +19,7 @@ void main() {
     const int axis = face >> 1;
     const ivec3 beside = voxel + ((face & 1) == 0 ? 1 : -1) * ivec3(axis == 0, axis == 1, axis == 2);
     if (isOccupied(beside)) cell |= 1u << (kCellBesideSurface + face);
-    if (mayHoldLight(beside)) cell |= 1u << (kCellBesideLight + face);
+    if (mayHoldLight(beside) && takesFrom(voxel, beside)) cell |= 1u << (kCellBesideLight + face);
   }
   imageStore(cells, voxel, uvec4(cell));
 }

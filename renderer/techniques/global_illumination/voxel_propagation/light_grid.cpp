@@ -30,7 +30,12 @@ voxels::VoxelGrid gridOf(const frame::Frame& frame, const LightGridSettings& set
     grid.resolution = glm::ivec3(settings.resolution);
     return grid;
   }
-  return lightBox(frame.scene(), settings.resolution);
+  voxels::VoxelGrid grid = lightBox(frame.scene(), settings.resolution);
+  // The first of them is there: the middles of the outermost voxels are just beyond the scene.
+  const int further = std::max(std::get<BoxOfScene>(settings.box).margin - 1, 0);
+  grid.origin -= further * grid.voxelSize;
+  grid.resolution += 2 * further;
+  return grid;
 }
 
 }  // namespace
@@ -214,6 +219,8 @@ bool LightGrid::place(const frame::Frame& frame) {
 
 void LightGrid::configureBounds(const gl::Program& program) const {
   volume_->configure(program);
+  const auto* box = std::get_if<BoxOfScene>(&settings_.box);
+  program.set("margin", box ? static_cast<float>(box->margin) : 0.0F);
   program.set("boundsLow", glm::vec3(volume_->grid().toVoxels(bounds_.low)));
   program.set("boundsHigh", glm::vec3(volume_->grid().toVoxels(bounds_.high)));
 }

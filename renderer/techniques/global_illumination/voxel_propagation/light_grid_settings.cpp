@@ -54,6 +54,18 @@ const SettingsTable<InjectionSettings>& InjectionSettings::table() {
        "the bench's own"}};
   return kTable;
 }
+const SettingsTable<BoxOfScene>& BoxOfScene::table() {
+  using S = BoxOfScene;
+  static const SettingsTable<S> kTable = {
+      {&S::margin,
+       "margin",
+       {0, 8},
+       "voxels",
+       "How far beyond the scene's box light goes on, so that surfaces at its sides that face outwards get "
+       "some; it does not come back. Each after the first is a further voxel on each side of the grid",
+       "the bench's own"}};
+  return kTable;
+}
 const SettingsTable<BoxAroundCamera>& BoxAroundCamera::table() {
   using S = BoxAroundCamera;
   static const SettingsTable<S> kTable = {

@@ -72,6 +72,8 @@ struct InjectionSettings {
 /// Where voxels are.
 struct BoxOfScene {
   static constexpr const char *kKind = "scene", *kSummary = "around the scene";
+  int margin = 1;
+  static const SettingsTable<BoxOfScene>& table();
 };
 struct BoxAroundCamera {
   static constexpr const char *kKind = "camera",
