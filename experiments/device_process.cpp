@@ -15,8 +15,8 @@
 namespace limen::experiments {
 namespace {
 
-/// Input from nowhere, output to a file.
-void speakTo(const std::string& log) {
+/// Standard input from nowhere, standard output and errors to the end of a file.
+void redirectOutput(const std::string& log) {
   const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (out < 0) throw Error("cannot be written", log, "check permissions and free space");
@@ -69,7 +69,7 @@ std::optional<SweepOptions> standBy(const SweepProgram& program, const SweepOpti
   out.jobVerb = "measure";
   order.at("folder").get_to(out.jobFolder);
   order.at("task").get_to(out.jobTask);
-  speakTo(taskLog(readSubmission(out.jobFolder), out.jobTask));
+  redirectOutput(taskLog(readSubmission(out.jobFolder), out.jobTask));
   return out;
 }
 

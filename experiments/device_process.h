@@ -26,7 +26,7 @@ class DeviceProcess {
  private:
   int index_;
   std::optional<SweepDevice> device_;
-  SpokenTo process_;
+  PipedProcess process_;
 };
 
 }  // namespace limen::experiments

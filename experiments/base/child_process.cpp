@@ -215,7 +215,7 @@ int runAndWait(const std::vector<std::string>& words, bool quiet) {
   return child == 0 ? 127 : waitFor(child);
 }
 
-SpokenTo::SpokenTo(const std::vector<std::string>& words) {
+PipedProcess::PipedProcess(const std::vector<std::string>& words) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw Error("cannot be started: " + std::system_category().message(errno), words.at(0),
@@ -231,16 +231,16 @@ SpokenTo::SpokenTo(const std::vector<std::string>& words) {
   throw Error("cannot be started", words.at(0), "see that the file is there and may be executed");
 }
 
-SpokenTo::SpokenTo(SpokenTo&& other) noexcept
+PipedProcess::PipedProcess(PipedProcess&& other) noexcept
     : process_(std::exchange(other.process_, 0)), end_(std::exchange(other.end_, -1)) {}
 
-SpokenTo::~SpokenTo() {
+PipedProcess::~PipedProcess() {
   if (process_ == 0) return;
   kill(process_, SIGTERM);
   waitFor(release());
 }
 
-std::optional<std::string> SpokenTo::read() {
+std::optional<std::string> PipedProcess::read() {
   std::string line;
   for (char c = 0;;) {
     const ssize_t count = recv(end_, &c, 1, 0);
@@ -251,7 +251,7 @@ std::optional<std::string> SpokenTo::read() {
   }
 }
 
-bool SpokenTo::write(const std::string& line) {
+bool PipedProcess::write(const std::string& line) {
   const std::string text = line + "\n";
   for (size_t sent = 0; sent < text.size();) {
     const ssize_t count = send(end_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
@@ -262,7 +262,7 @@ bool SpokenTo::write(const std::string& line) {
   return true;
 }
 
-pid_t SpokenTo::release() {
+pid_t PipedProcess::release() {
   close(std::exchange(end_, -1));
   return std::exchange(process_, 0);
 }

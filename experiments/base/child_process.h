@@ -46,14 +46,14 @@ std::vector<int> keepRunning(const std::vector<KeptProgram>& programs,
                              const std::function<void()>& tick = {}, int* stopped = nullptr);
 
 /// A child of this process whose standard input and output it holds the other end of.
-class SpokenTo {
+class PipedProcess {
  public:
   /// Starts a program. Throws Error if it cannot be started.
-  explicit SpokenTo(const std::vector<std::string>& words);
+  explicit PipedProcess(const std::vector<std::string>& words);
   /// Ends it, unless released.
-  ~SpokenTo();
-  SpokenTo(SpokenTo&& other) noexcept;
-  SpokenTo& operator=(SpokenTo&&) = delete;
+  ~PipedProcess();
+  PipedProcess(PipedProcess&& other) noexcept;
+  PipedProcess& operator=(PipedProcess&&) = delete;
 
   /// Waits for a line that it writes; nothing if it ends before.
   std::optional<std::string> read();

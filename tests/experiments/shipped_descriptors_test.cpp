@@ -86,6 +86,29 @@ TEST_F(ShippedDescriptors, NameEveryTechnique) {
   EXPECT_GT(techniques, 5U);
 }
 
+// An error of fields against rays means little without the rays: what a run is keyed and stored by says how
+// many they are and where they lie in their cells.
+TEST_F(ShippedDescriptors, ErrorsOfFieldsNameTheRaySetOfTheirReference) {
+  size_t runs = 0;
+  for (const std::string& descriptor : shipped()) {
+    if (descriptor.find("visibility_field") == std::string::npos) continue;
+    const CallResult planned = call({descriptor, "--dry-run", "--json"});
+    for (const nlohmann::json& line : jsonLines(planned.out)) {
+      if (!line.contains("parameters") || !line["parameters"].contains("reference")) continue;
+      const nlohmann::json& reference = line["parameters"]["reference"];
+      const std::string name = reference.value("name", "");
+      if (!name.starts_with("visibility_fields/")) continue;
+      ++runs;
+      EXPECT_GE(reference.value("rays", 0), 1) << descriptor << ": " << reference;
+      // All vertices have the same rays.
+      EXPECT_TRUE(name.ends_with("vertex_occlusion") || reference.contains("pattern") ||
+                  reference.contains("turned"))
+          << descriptor << ": " << reference;
+    }
+  }
+  EXPECT_GT(runs, 300U);
+}
+
 TEST_F(ShippedDescriptors, CoverTheSoftShadowFeaturesThatAreBuilt) {
   const CallResult result = call({"--features", "--json"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
