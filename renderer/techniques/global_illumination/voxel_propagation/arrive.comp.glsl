@@ -11,7 +11,7 @@ layout(binding = kArriveFacesImage, ARRIVED_FORMAT) uniform ARRIVED_ACCESS image
 uniform int from;
 uniform bool first;
 #ifdef RESIDENT
-layout(std430, binding = kStepSignalsBuffer) readonly buffer Signals { uint stuck; };  // see propagate_resident.comp.glsl
+layout(std430, binding = kStepStuckBuffer) readonly buffer Stuck { uint stuck; };  // see propagate_resident.comp.glsl
 #endif
 
 void main() {

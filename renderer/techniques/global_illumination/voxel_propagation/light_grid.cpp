@@ -99,12 +99,10 @@ void LightGrid::tryStepsAtOnce(frame::Frame& frame) {
   if (std::holds_alternative<DispatchEach>(settings_.steps.dispatch) || settings_.iterations < 1 ||
       settings_.steps.stopBelow > 0.0 || settings_.steps.sources == LightSources::Once)
     return;
-  const StepExchange exchange = needed ? std::get<OneDispatch>(settings_.steps.dispatch).exchange
-                                       : std::get<FittingDispatch>(settings_.steps.dispatch).exchange;
   const bool software = frame.context().device().software;
   const glm::ivec3 size = volume_->grid().resolution;
-  const ResidentSteps::Form form = ResidentSteps::formOf(exchange, settings_.format, size, software);
-  const glm::ivec3 groups = (size + form.tile - 1) / form.tile;
+  const ResidentSteps::Form form = ResidentSteps::formOf(settings_.format, size, software);
+  const glm::ivec3 groups = form.groups(size);
   const std::string what = std::to_string(groups.x * groups.y * groups.z) + " groups";
   std::string reason;
   if (software && !needed && groups != glm::ivec3(1)) {
@@ -301,7 +299,7 @@ void LightGrid::propagate() {
 }
 
 void LightGrid::arrive(bool first) {
-  if (resident_) resident_->signals().bindStorage(kStepSignalsBuffer);
+  if (resident_) resident_->stuckBuffer().bindStorage(kStepStuckBuffer);
   programs_->arrive->set("from", reading());
   programs_->arrive->set("first", first ? 1 : 0);
   programs_->arrive->use();

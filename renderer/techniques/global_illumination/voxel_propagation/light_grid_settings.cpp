@@ -8,15 +8,6 @@ namespace {
 
 constexpr const char* kTransportSource = "Gaitatzes 2012, section 5.5.2, equation 11";
 
-template <class S>
-SettingsTable<S> exchangeTable() {
-  return {
-      {&S::exchange, "exchange",
-       "How groups tell each other their lights after a step, with the same result; the time of tags has not "
-       "been measured on a GPU",
-       "the bench's own"}};
-}
-
 }  // namespace
 
 const SettingsTable<ConeTransport>& ConeTransport::table() {
@@ -92,14 +83,6 @@ const SettingsTable<LimitedBounces>& LimitedBounces::table() {
        "Surfaces that indirect light is reflected by before the one that is seen, as of paths; the first "
        "is where it is put in",
        "Gaitatzes 2012, section 5.6 (2)"}};
-  return kTable;
-}
-const SettingsTable<FittingDispatch>& FittingDispatch::table() {
-  static const SettingsTable<FittingDispatch> kTable = exchangeTable<FittingDispatch>();
-  return kTable;
-}
-const SettingsTable<OneDispatch>& OneDispatch::table() {
-  static const SettingsTable<OneDispatch> kTable = exchangeTable<OneDispatch>();
   return kTable;
 }
 const SettingsTable<StepSettings>& StepSettings::table() {

@@ -101,24 +101,12 @@ struct UpdateOn {
 };
 using GridUpdate = std::variant<UpdateAll, UpdateEvery, UpdateAxes, UpdateOn>;
 
-/// How groups of one dispatch tell each other their lights after a step, with the same result.
-enum class StepExchange {
-  Signals,  ///< a signal of each group, between memory barriers
-  Tags      ///< words of light that bear the step; no signal, no memory barrier, one barrier a step
-};
-constexpr EnumNames<StepExchange, 2> enumNames(StepExchange) {
-  return {{{{StepExchange::Signals, "signals"}, {StepExchange::Tags, "tags"}}}};
-}
 /// How steps are given to the GPU, with the same result.
 struct FittingDispatch {
   static constexpr const char *kKind = "fitting", *kSummary = "all in one where that works, else one each";
-  StepExchange exchange = StepExchange::Signals;
-  static const SettingsTable<FittingDispatch>& table();
 };
 struct OneDispatch {
   static constexpr const char *kKind = "once", *kSummary = "all in one, whose groups wait for each other";
-  StepExchange exchange = StepExchange::Signals;
-  static const SettingsTable<OneDispatch>& table();
 };
 struct DispatchEach {
   static constexpr const char *kKind = "each", *kSummary = "one each";

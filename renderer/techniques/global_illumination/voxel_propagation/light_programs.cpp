@@ -62,7 +62,7 @@ LightPrograms::LightPrograms(frame::Frame& frame, const LightGridSettings& setti
 const gl::Program& LightPrograms::residentSteps(frame::Frame& frame, const ResidentSteps::Form& form) const {
   gl::ShaderDefines defines = stepDefines_;
   form.define(defines);
-  return step(frame, form.shader(), defines);
+  return step(frame, "propagate_resident.comp.glsl", defines);
 }
 
 const gl::Program& LightPrograms::arriveAfterResident(frame::Frame& frame) const {
