@@ -11,24 +11,21 @@ uniform ivec2 sizePx;
 uniform bool withDirect, withIndirect;
 #include "renderer/techniques/global_illumination/surface_light.glsl"
 
-// What a point reflects of other surfaces' light. All invocations of a group call it, so that it may have barriers; `there`: whether
-// this one has a point.
-vec3 indirectLight(bool there, SurfacePoint point, vec3 albedo);
+// What the point reflects of other surfaces' light.
+vec3 indirectLight(SurfacePoint point, vec3 albedo);
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  const bool inPicture = all(lessThan(pixel, sizePx));
-  const uint id = inPicture ? texelFetch(triangleIds, pixel, 0).x : kRayNoTriangle;
-  const bool there = id != kRayNoTriangle;
-  vec3 colour = vec3(0.0), albedo = vec3(0.0);
-  SurfacePoint point = SurfacePoint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), kRayNoTriangle);
-  if (there) {
+  if (any(greaterThanEqual(pixel, sizePx))) return;
+  const uint id = texelFetch(triangleIds, pixel, 0).x;
+  vec3 colour = vec3(0.0);
+  if (id != kRayNoTriangle) {
     SeenPoint seen;
-    point = surfaceSeen(pixel, id, seen);
-    albedo = reflectance(point);
+    const SurfacePoint point = surfaceSeen(pixel, id, seen);
+    const vec3 albedo = reflectance(point);
     if (withDirect) colour += emitted(point) + albedo * lampRadiance(point);
+    if (withIndirect) colour += indirectLight(point, albedo);
+    if (rayCutShort) colour = vec3(uintBitsToFloat(0x7fc00000u));
   }
-  if (withIndirect) colour += indirectLight(there, point, albedo);
-  if (rayCutShort) colour = vec3(uintBitsToFloat(0x7fc00000u));
-  if (inPicture) imageStore(picture, pixel, vec4(colour, 1.0));
+  imageStore(picture, pixel, vec4(colour, 1.0));
 }

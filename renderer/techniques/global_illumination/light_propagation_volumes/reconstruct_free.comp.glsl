@@ -36,4 +36,4 @@ vec3 passingLight(SurfacePoint point) {
   return max(sum, 0.0) / 3.14159265;
 }
 
-vec3 indirectLight(bool there, SurfacePoint point, vec3 albedo) { return there ? albedo * passingLight(point) : vec3(0.0); }
+vec3 indirectLight(SurfacePoint point, vec3 albedo) { return albedo * passingLight(point); }

@@ -3,6 +3,4 @@
 #include "renderer/techniques/global_illumination/indirect_picture.glsl"
 #include "renderer/techniques/global_illumination/voxel_cone_tracing/radiance.glsl"
 
-vec3 indirectLight(bool there, SurfacePoint point, vec3 albedo) {
-  return there ? albedo * conesAbout(toVoxels(point.position), point.flatNormal) : vec3(0.0);
-}
+vec3 indirectLight(SurfacePoint point, vec3 albedo) { return albedo * conesAbout(toVoxels(point.position), point.flatNormal); }
