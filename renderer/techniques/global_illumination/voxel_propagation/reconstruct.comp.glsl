@@ -122,9 +122,9 @@ vec4 lightAtFace(SurfacePoint point, vec3 at, int face, bool wide) {
     const ivec3 voxel = around ? own + from : low + upper;
     const vec3 away = vec3(voxel) - at;
     if (around && (dot(away, away) >= nearest || !isInGrid(voxel))) continue;
-    if (wide && (max(max(abs(from.x), abs(from.y)), abs(from.z)) < reach ||
-                 !(dot(away + vec3(faceStep(face)), point.flatNormal) > 0.0)))
-      continue;
+    if (wide && max(max(abs(from.x), abs(from.y)), abs(from.z)) < reach) continue;
+    // What is below the surface does not light it.
+    if (!(dot(away + vec3(faceStep(face)), point.flatNormal) > 0.0)) continue;
     vec4 light = lightOf(voxel, face);
     if (light.a == 0.0 || !seesVoxel(point, voxel + faceStep(face))) continue;
 #if GATHER == GATHER_REFLECTED

@@ -181,7 +181,7 @@ class VoxelPropagation : public Technique {
 
 const RegisteredTechnique<VoxelPropagation> kVoxelPropagationRegistered{
     {.name = "global_illumination/voxel_propagation",
-     .version = 4,
+     .version = 5,
      .summary = "Light spread and reflected in a grid of voxels, as harmonics of two bands",
      .source = "Gaitatzes 2012, chapter 5 (GI-03 to GI-13)",
      .product = ProductKind::Colour,
