@@ -54,6 +54,23 @@ const uint kLightFluxBuffer = 8u;
 const int kReflectiveRayGroup = 64;
 const uint kArriveFacesImage = 0u;
 const uint kReconstructArrivedUnit = 1u;
+// Pixels whose light takes rays to find, and these rays (voxel_propagation/seen_light.h).
+const uint kAskedRaysBuffer = 8u;     // AskedHeader, then rays: number of the pixel << kAskedCornerBits | 8 * face + corner
+const uint kAskedPixelsBuffer = 9u;   // numbers of the pixels with rays; of those that search, from the picture's number of pixels on
+const uint kSeenCornersBuffer = 10u;  // two words a pixel: bits 8 * face + corner of those seen
+const int kAskedGroup = 64;
+const int kAskedCornerBits = 6;
+const uint kNoRay = 0xffffffffu;
+const uint kNotTraced = 0x80000000u;     // beside a pixel's number: its rays did not fit into the list
+const uint kSeenCutShort = 0x80000000u;  // in the second word: a ray was cut short
+struct AskedList {                       // std430
+  uint count;                      // while it is written; 0 between frames
+  uint groupsX, groupsY, groupsZ;  // of an indirect dispatch
+  uint listed;
+};
+struct AskedHeader {
+  AskedList rays, pixels, searches;
+};
 // Pyramid of voxels' radiance: sums of a voxel, of each face its area and three channels; six faces' textures and images.
 const uint kFaceSums = 24u;
 const uint kFaceSumsBuffer = 8u;

@@ -22,25 +22,39 @@ gl::ShaderDefines litDefines(const frame::SurfaceLightSettings& lighting, const 
 IndirectPicture::IndirectPicture(frame::Frame& frame, const std::string& shader,
                                  const gl::ShaderDefines& defines,
                                  const frame::SurfaceLightSettings& lighting, const char* pass)
-    : program_(frame.context().programs().compute(shader, litDefines(lighting, frame, defines))),
-      lighting_(lighting),
+    : lighting_(lighting),
+      program_(program(frame, shader, defines)),
       pass_(pass),
       picture_(gl::Format::RGBA32F, frame.sizePx()) {
   frame.passes().setBytesHeld(pass, picture_.bytes());
 }
 
+const gl::Program& IndirectPicture::program(frame::Frame& frame, const std::string& shader,
+                                            const gl::ShaderDefines& defines) const {
+  return frame.context().programs().compute(shader, litDefines(lighting_, frame, defines));
+}
+
+void IndirectPicture::configure(const gl::Program& program, frame::Frame& frame,
+                                const ray_tracing::RayTree* tree) const {
+  configureSurfaceLight(program, frame, lighting_, tree);
+  program.set("withDirect", lighting_.light != frame::LightPart::Indirect ? 1 : 0);
+  program.set("withIndirect", lighting_.light != frame::LightPart::Direct ? 1 : 0);
+}
+
 void IndirectPicture::render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure,
-                             const ray_tracing::RayTree* tree) const {
+                             const ray_tracing::RayTree* tree, const std::function<void()>& after) const {
   const gl::Texture& ids = frame.get<frame::TriangleIds>().texture();
-  const auto scope = frame.passes().open(pass_);
-  configureSurfaceLight(program_, frame, lighting_, tree);
-  configure(program_);
-  program_.set("withDirect", lighting_.light != frame::LightPart::Indirect ? 1 : 0);
-  program_.set("withIndirect", lighting_.light != frame::LightPart::Direct ? 1 : 0);
-  ids.bindTexture(kIndirectIdsUnit);
-  picture_.bindImage(kIndirectPictureImage, gl::Access::Write);
-  program_.dispatch(frame.sizePx());
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  {
+    const auto scope = frame.passes().open(pass_);
+    this->configure(program_, frame, tree);
+    configure(program_);
+    ids.bindTexture(kIndirectIdsUnit);
+    picture_.bindImage(kIndirectPictureImage, gl::Access::ReadWrite);
+    program_.dispatch(frame.sizePx());
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  if (after) after();
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace limen::techniques
