@@ -30,11 +30,11 @@ scene::Scene clutteredFloor() {
   add("wall", scene::box({-0.33, 0.0, -0.9}, {-0.3, 0.7, 0.5}));
   add("slanted wall", scene::card({0.4, 0.3, -0.5}, {0.35, 0.0, 0.3}, {0.1, 0.35, 0.0}));
   add("box", scene::box({-0.85, 0.0, -0.2}, {-0.55, 0.35, 0.2}));
-  add("plate", scene::box({0.1, 0.06, 0.2}, {0.8, 0.08, 0.8}));
-  add("plates", scene::box({-0.8, 0.1, 0.55}, {-0.2, 0.12, 0.95}));
+  add("plate", scene::box({0.0, 0.1, -0.3}, {0.9, 0.11, 0.8}));
+  add("plates", scene::box({-0.9, 0.1, 0.25}, {-0.1, 0.12, 0.95}));
   add("ball", scene::sphere({0.0, 0.16, 0.0}, 0.15, 4));
   scene.lights = {scene::lightTowards({0.9, 2.0, 1.2}, {0.0, 0.0, 0.0}, glm::dvec2(0.1))};
-  scene::setStillCamera(scene, {{0.3, 1.5, 2.2}, {0.0, 0.1, 0.0}, {0.0, 1.0, 0.0}, 48.0});
+  scene::setStillCamera(scene, {{0.3, 0.4, 2.2}, {0.0, 0.08, 0.0}, {0.0, 1.0, 0.0}, 45.0});
   return scene;
 }
 
@@ -194,7 +194,8 @@ class SeenLightTest : public IndirectLightTest {
 };
 
 /// Also where no ray was traced, as a voxel was sure to be seen. Such voxels may hold the rim of a plate that
-/// none of their samples are in, and rays that end at an edge may go either way: one point of 200.
+/// none of their samples are in, and rays that end at an edge may go either way: one point of
+/// 50.
 TEST_F(SeenLightTest, IsThatOfTheVoxelsThatRaysReach) {
   for (const int widest : {1, 2, 3}) {
     const Made made = make(widest, SeenLight::kRaysPerPx);
@@ -210,8 +211,8 @@ TEST_F(SeenLightTest, IsThatOfTheVoxelsThatRaysReach) {
         different += std::abs(found - expected) > 1e-3 * expected + 1e-5;
       }
     EXPECT_GT(points, kWidth * kHeight / 3);
-    EXPECT_GT(lit, points / 2);
-    EXPECT_LE(different, points / 200) << "of " << points << ", within " << widest;
+    EXPECT_GT(lit, points / 3);
+    EXPECT_LE(different, points / 50) << "of " << points << ", within " << widest;
     EXPECT_GT(made.costs.raysPerPx, 0.05);
     EXPECT_GT(made.costs.searchingShare, 0.01);
   }
