@@ -2,6 +2,7 @@
 #include "experiments/gl_executor.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -364,6 +365,7 @@ class GlExecutor : public Executor {
     run.timing->warmUp(*run.frame, *run.technique);
     run.timing->measureRound(*run.frame, *run.technique, round, kMaxTimingSeconds / rounds);
     clock_.touch();
+    if (const auto mhz = clock_.measureMhz()) run.clocksMhz.push_back(*mhz);
     if (round + 1 < rounds) return;
     // Throws if frames have gone wrong since the first, so that their times are not kept.
     (void)run.technique->remarks();
@@ -373,8 +375,21 @@ class GlExecutor : public Executor {
     int64_t bytes = 0;
     for (const store::Pass& pass : run.outcome.passes) bytes += pass.bytesHeld;
     run.outcome.measurements.push_back(measured("bytes_held", static_cast<double>(bytes)));
-    if (const auto mhz = clock_.measureMhz())
-      run.outcome.measurements.push_back(measured("gpu_clock_mhz", *mhz));
+    recordClock(run);
+  }
+
+  /// The lowest: times of a run whose clock changed are no steady GPU's.
+  static void recordClock(LiveRun& run) {
+    if (run.clocksMhz.empty()) return;
+    const auto [lowest, highest] = std::minmax_element(run.clocksMhz.begin(), run.clocksMhz.end());
+    run.outcome.measurements.push_back(measured("gpu_clock_mhz", *lowest));
+    constexpr double kSteady = 1.03;
+    if (*highest > kSteady * *lowest)
+      addRemarks(
+          {fmt::format("The GPU's clock was between {:.0f} and {:.0f} MHz while frames were timed: their "
+                       "times are not those of one clock.",
+                       *lowest, *highest)},
+          run.outcome.sceneFacts);
   }
 
   std::string folder_;

@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+
 #include "experiments/gpu_clock_bindings.h"
 #include "renderer/gl/buffer.h"
 
@@ -17,17 +19,32 @@ GpuClock::GpuClock(gl::Context& context) : software_(context.device().software) 
     counter_ = &context.programs().compute("experiments/gpu_clock.comp.glsl");
 }
 
-void GpuClock::spin(int repetitions) {
+void GpuClock::spinFor(std::chrono::milliseconds time) {
+  const auto start = steady_clock::now();
   const gl::Buffer out(64, nullptr);
   out.bindStorage(kClockOutBuffer);
-  for (int i = 0; i < repetitions; ++i) busy_->dispatch({64 * 1024, 1}, {kBusyGroup, 1});
-  glFinish();
+  while (steady_clock::now() - start < time) {
+    for (int i = 0; i < 16; ++i) busy_->dispatch({64 * 1024, 1}, {kBusyGroup, 1});
+    glFinish();
+  }
 }
 
 void GpuClock::wake() {
   if (software_ || steady_clock::now() - lastWork_ < std::chrono::seconds(1)) return;
-  const auto start = steady_clock::now();
-  while (steady_clock::now() - start < std::chrono::milliseconds(500)) spin(16);
+  using std::chrono::milliseconds;
+  spinFor(milliseconds(500));
+  constexpr double kSame = 0.02;  // share by which clocks of a chip at work differ
+  constexpr int kMostTimes = 24;  // a chip that stays slower, as a hot one, is taken as it is
+  double before = highestMhz_;
+  for (int i = 0; i < kMostTimes; ++i) {
+    const double mhz = measureMhz().value_or(0.0);
+    const bool rises = mhz > (1.0 + kSame) * before, isLower = mhz < (1.0 - kSame) * highestMhz_;
+    if (i + 1 == kMostTimes) highestMhz_ = mhz;
+    highestMhz_ = std::max(highestMhz_, mhz);
+    before = mhz;
+    if (!rises && !isLower) break;
+    spinFor(milliseconds(100));
+  }
   touch();
 }
 

@@ -18,17 +18,19 @@ class GpuClock {
   /// Call after frames have been timed. Sporadic work (an occasional picture or metric) does not keep the
   /// clock high and does not count.
   void touch() { lastWork_ = std::chrono::steady_clock::now(); }
-  /// Keeps the GPU busy for half a second if it was idle for more than a second.
+  /// Keeps the GPU busy for half a second if it was idle for more than a second, and, where its clock can be
+  /// read, longer until that is as high as before or rises no more; at most some three seconds.
   void wake();
   /// Clock of the shader processors in MHz, where GL_ARB_shader_clock exists; waits for the GPU.
   std::optional<double> measureMhz();
 
  private:
-  void spin(int repetitions);
+  void spinFor(std::chrono::milliseconds time);
 
   const bool software_;
   const gl::Program* busy_ = nullptr;
   const gl::Program* counter_ = nullptr;
+  double highestMhz_ = 0.0;  ///< that a chip is expected to come back to
   std::chrono::steady_clock::time_point lastWork_{};
 };
 

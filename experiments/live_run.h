@@ -66,6 +66,7 @@ struct LiveRun {
   std::unique_ptr<frame::Frame> frame;
   std::unique_ptr<techniques::Technique> technique;
   std::optional<FrameTiming> timing;
+  std::vector<double> clocksMhz;  ///< of the GPU after each round, where it can be read
   std::future<Afterwork> afterwork;
   RunOutcome outcome;
 };
