@@ -9,7 +9,7 @@
 namespace limen::experiments {
 
 /// Keeps a GPU's clock high around timed frames and reads it. An idle GPU lowers its clock within seconds and
-/// needs up to 0.34 s of continuous work to raise it again; until then times look steady but are several
+/// needs up to 0.8 s of continuous work to raise it again; until then times look steady but are several
 /// times too long. For a software renderer every member does nothing.
 class GpuClock {
  public:
@@ -19,7 +19,7 @@ class GpuClock {
   /// clock high and does not count.
   void touch() { lastWork_ = std::chrono::steady_clock::now(); }
   /// Keeps the GPU busy for half a second if it was idle for more than a second, and, where its clock can be
-  /// read, longer until that is as high as before or rises no more; at most some three seconds.
+  /// read, longer until that is as high as before or has risen no more for .4 s; some three seconds at most.
   void wake();
   /// Clock of the shader processors in MHz, where GL_ARB_shader_clock exists; waits for the GPU.
   std::optional<double> measureMhz();
@@ -30,7 +30,7 @@ class GpuClock {
   const bool software_;
   const gl::Program* busy_ = nullptr;
   const gl::Program* counter_ = nullptr;
-  double highestMhz_ = 0.0;  ///< that a chip is expected to come back to
+  double expectedMhz_ = 0.0;  ///< of the chip at work; 0: not known yet
   std::chrono::steady_clock::time_point lastWork_{};
 };
 

@@ -45,6 +45,20 @@ uint litVoxels(SurfacePoint point, vec3 at, ivec3 own, int face, int reach, int 
   return lit;
 }
 
+// The nearest of those of a block.
+int nearestOf(uint lit, vec3 at, ivec3 own, int reach, int block) {
+  int nearest = -1;
+  float least = 1e30;
+  for (; lit != 0u; lit &= lit - 1u) {
+    const int i = findLSB(lit);
+    const vec3 away = vec3(own + blockStep(reach, block, i)) - at;
+    if (dot(away, away) >= least) continue;
+    least = dot(away, away);
+    nearest = i;
+  }
+  return nearest;
+}
+
 // One place in the shader traces rays, as each takes many registers.
 vec4 searchedAtFace(SurfacePoint point, vec3 at, int face, bool traced, uint seen, bool wide) {
   const ivec3 low = ivec3(floor(at)), own = ivec3(floor(at + 0.5));
@@ -69,14 +83,19 @@ vec4 searchedAtFace(SurfacePoint point, vec3 at, int face, bool traced, uint see
       left = litVoxels(point, at, own, face, reach, block);
       continue;
     }
-    const int i = findLSB(left);
-    left &= left - 1u;
+    const int i = around ? nearestOf(left, at, own, reach, block) : findLSB(left);
     const ivec3 voxel = around ? own + blockStep(reach, block, i) : low + cornerStep(i);
     const vec3 away = vec3(voxel) - at;
-    if ((around && dot(away, away) >= nearest) || !seesVoxel(point, voxel + faceStep(face))) continue;
+    left &= ~(1u << i);
+    if (around && dot(away, away) >= nearest) {
+      left = 0u;  // the others of the block are farther still
+      continue;
+    }
+    if (!seesVoxel(point, voxel + faceStep(face))) continue;
     if (around) {
       nearest = dot(away, away);
       best = voxel;
+      left = 0u;
     } else {
       sum += cornerShare(at - vec3(low), i) * vec4(lightOf(voxel, face).rgb, 1.0);
     }
