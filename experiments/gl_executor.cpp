@@ -193,6 +193,9 @@ class GlExecutor : public Executor {
       const Stopwatch watch(seconds_["rendering"]);
       product = run.technique->product().read();
       counters = run.technique->count(*run.frame);
+      for (const techniques::Series& series : run.technique->series())
+        run.outcome.sceneFacts["series"][series.name] = {{"summary", series.summary},
+                                                         {"values", series.values}};
     }
     std::shared_ptr<const Image> reference;
     std::optional<gl::Texture> referenceTexture;

@@ -33,7 +33,7 @@ CREATE TABLE run (
   scene TEXT NOT NULL,                -- registered name
   label TEXT NOT NULL,                -- the parameters that vary in the experiment, for a reader
   parameters TEXT NOT NULL,           -- JSON: {"technique": {...}, "scene": {...}, "image": {...}, "reference": {...}, "timing": {...}, "metrics": [...]}
-  scene_facts TEXT NOT NULL DEFAULT '{}',  -- JSON: {"content_hash", "triangles", "bounds": [[x,y,z],[x,y,z]], "remarks": [what the technique says]}
+  scene_facts TEXT NOT NULL DEFAULT '{}',  -- JSON: {"content_hash", "triangles", "bounds": [[x,y,z],[x,y,z]], "remarks": [what the technique says], "series": {name: {"summary", "values": [...]}}}
   environment INTEGER REFERENCES environment(id),
   owner TEXT NOT NULL DEFAULT '',     -- host:pid:start of the process that holds a 'running' row
   started TEXT NOT NULL,

@@ -46,6 +46,13 @@ struct Counter {
   double value = 0.0;
 };
 
+/// A sequence of figures, one for each step of what a technique does; kept in a run's facts.
+struct Series {
+  std::string name;     ///< snake_case: "flux_after_step"
+  std::string summary;  ///< with the unit
+  std::vector<double> values;
+};
+
 /// Makes one picture: display-coded, 3 channels, of the product's size. Holds what it needs: it touches
 /// neither OpenGL nor its technique, so that it may run on another thread and after the technique is gone.
 using PictureMaker = std::function<Image()>;
@@ -64,6 +71,8 @@ class Technique {
   /// Machine-independent costs, counted in a separate pass outside the timed frames. Called
   /// after render().
   virtual std::vector<Counter> count(frame::Frame&) { return {}; }
+  /// Sequences of numbers behind the counters, such as one for each step. Valid after count().
+  virtual std::vector<Series> series() const { return {}; }
   /// What a reader of the run's record should know, one sentence each: choices that the technique made
   /// itself, with their reasons, and what went wrong in frames rendered so far. Valid after prepare(); asked
   /// for again after frames were timed. May wait for the GPU. Throws Error if frames were wrong.

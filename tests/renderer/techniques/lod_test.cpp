@@ -27,7 +27,7 @@ class LodTest : public TechniqueTest {
     frame.begin();
     made->render(frame);
     frame.end();
-    Rendered out{made->product().read(), {}, made->count(frame)};
+    Rendered out{made->product().read(), {}, made->count(frame), {}};
     frame.begin();
     made->render(frame);
     frame.end();

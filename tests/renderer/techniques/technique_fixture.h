@@ -20,6 +20,7 @@ namespace limen::techniques {
 struct Rendered {
   Image product, receivers;
   std::vector<Counter> counters;
+  std::vector<Series> series;  ///< where counters are
   double counter(const std::string& name) const {
     for (const Counter& counter : counters)
       if (counter.name == name) return counter.value;
@@ -110,9 +111,12 @@ class TechniqueTest : public testing::Test {
     made->prepare(frame);
     frame.begin();
     made->render(frame);
-    Rendered out{made->product().read(), frame.get<frame::Receivers>().texture().read(), {}};
+    Rendered out{made->product().read(), frame.get<frame::Receivers>().texture().read(), {}, {}};
     frame.end();
-    if (counting) out.counters = made->count(frame);
+    if (counting) {
+      out.counters = made->count(frame);
+      out.series = made->series();
+    }
     return out;
   }
 };

@@ -82,6 +82,14 @@ class VoxelPropagation : public Technique {
       picture_->render(frame, gathers, light_->tree());
   }
 
+  std::vector<Series> series() const override {
+    return {
+        {"flux_after_step",
+         "Flux that was put in once, before the first step and after each, mean of the channels, radiance "
+         "times area",
+         fluxAfterStep_}};
+  }
+
   const gl::Texture& product() const override { return seen_ ? seen_->texture() : picture_->texture(); }
 
   std::vector<std::string> remarks() const override {
@@ -99,19 +107,20 @@ class VoxelPropagation : public Technique {
     const SeenLight::Costs costs = seen_ ? seen_->costs() : SeenLight::Costs{};
     light_->start(frame);
     const double injected = meanFlux();
-    double before = injected, largest = 0.0, last = 0.0;
+    fluxAfterStep_ = {injected};
+    double largest = 0.0, last = 0.0;
     for (int step = 0; step < settings_.grid.iterations; ++step) {
       light_->propagate();
-      const double after = meanFlux();
+      const double before = fluxAfterStep_.back(), after = meanFlux();
       last = before > 0.0 ? after / before : 0.0;
       largest = std::max(largest, last);
-      before = after;
+      fluxAfterStep_.push_back(after);
     }
     const voxels::VoxelGrid& grid = light_->volume().grid();
     return {{"injected_flux", injected},
             {"largest_gain", largest},
             {"last_gain", last},
-            {"remaining_flux", injected > 0.0 ? before / injected : 0.0},
+            {"remaining_flux", injected > 0.0 ? fluxAfterStep_.back() / injected : 0.0},
             {"homeless_samples", double(light_->homeless())},
             {"visibility_rays_per_px", costs.raysPerPx},
             {"searching_px_share", costs.searchingShare},
@@ -121,6 +130,7 @@ class VoxelPropagation : public Technique {
  private:
   Settings settings_;
   std::optional<LightGrid> light_;
+  std::vector<double> fluxAfterStep_;
   std::optional<SeenLight> seen_;
   std::optional<IndirectPicture> picture_;
 };

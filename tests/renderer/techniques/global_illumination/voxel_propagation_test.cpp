@@ -74,6 +74,16 @@ TEST_F(VoxelPropagationLight, StepsCreateNoEnergy) {
       EXPECT_LT(rendered.counter("largest_gain"), 1.0 + 1.0 / 2048.0) << transport << ", " << reflection;
       EXPECT_LT(rendered.counter("remaining_flux"), 0.5) << transport << ", " << reflection;
       EXPECT_GT(rendered.counter("last_gain"), 0.9 - 1.0 / 1024.0) << transport << ", " << reflection;
+      ASSERT_EQ(rendered.series.size(), 1U);
+      const std::vector<double>& flux = rendered.series[0].values;
+      ASSERT_EQ(flux.size(), 129U);
+      EXPECT_EQ(flux[0], rendered.counter("injected_flux"));
+      for (size_t step = 1; step < flux.size(); ++step) {
+        EXPECT_LT(flux[step], flux[step - 1] * (1.0 + 1.0 / 2048.0))
+            << transport << ", " << reflection << step;
+        EXPECT_GT(flux[step], flux[step - 1] * (0.9 - 1.0 / 1024.0))
+            << transport << ", " << reflection << step;
+      }
     }
 }
 
