@@ -82,6 +82,28 @@ TEST_F(SlurmTest, WhatFailsIsSaidByStatusAndReportAndNotRepeated) {
   EXPECT_FALSE(exists("results/d_tasks/2")) << "a failed run is no run that was left behind";
 }
 
+/// Runs take half a second each, and two tasks share them: what is said after some is what the rest takes,
+/// up to a second of Slurm's own and a third, as tasks write how far they are once a second.
+TEST_F(SlurmTest, StatusSaysHowLongTheRestTakes) {
+  using std::chrono::steady_clock;
+  write("d.yaml", tasksDescriptor(32, 500));
+  ASSERT_EQ(call({"submit", "d.yaml", "--array", "2"}).exitCode, 0);
+  const auto status = [&] { return nlohmann::json::parse(call({"status", "d.yaml", "--json"}).out); };
+  nlohmann::json said;
+  ASSERT_TRUE(eventually([&] {
+    said = status();
+    return said.at("done").get<int>() >= 4 && said.at("running").get<int>() > 0;
+  }));
+  const auto asked = steady_clock::now();
+  ASSERT_TRUE(said.at("seconds_left").is_number()) << said;
+  ASSERT_TRUE(eventually([&] { return status().at("done") == 32; }));
+  const double took = std::chrono::duration<double>(steady_clock::now() - asked).count();
+  EXPECT_NEAR(said.at("seconds_left").get<double>(), took, 1.0 + took / 3.0) << said;
+  EXPECT_GT(took, 1.0);
+  ASSERT_TRUE(eventually(allOver));
+  EXPECT_TRUE(status().at("seconds_left").is_null());
+}
+
 TEST_F(SlurmTest, ATaskThatCannotWorkIsTriedElsewhereAndThenReported) {
   write("d.yaml", tasksDescriptor(24, 1));
   setenv("FAKE_DEVICE", "", 1);  // a cluster without a driver
