@@ -43,7 +43,11 @@ class ProgressWriter : public SweepObserver {
   }
   void measuring(const PlannedRun&, size_t batchSize) override {
     progress_.holding = batchSize;
-    writeNowAndThen();
+    // Batches that end within a second of each other would never be seen at work; two writes a second at most.
+    if (writtenHolding_ == 0)
+      write();
+    else
+      writeNowAndThen();
   }
   void finished(const PlannedRun& run, const store::Run& row) override {
     ++finished_;
@@ -68,6 +72,7 @@ class ProgressWriter : public SweepObserver {
   /// A disk that is full stops the store, not this.
   void write() {
     written_ = steady_clock::now();
+    writtenHolding_ = progress_.holding;
     if (finished_ > 0)
       progress_.secondsEach =
           std::chrono::duration<double>(written_ - start_).count() / static_cast<double>(finished_);
@@ -89,6 +94,7 @@ class ProgressWriter : public SweepObserver {
   TaskProgress progress_;
   size_t finished_ = 0;
   steady_clock::time_point start_ = steady_clock::now(), written_;
+  size_t writtenHolding_ = 0;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ struct TaskProgress {
   std::vector<std::string> failures;  ///< the first few
 };
 
-/// Writes the file as runs finish, at most once a second.
+/// Writes the file as runs finish, at most once a second, and when a batch begins.
 std::unique_ptr<SweepObserver> makeProgressWriter(const std::string& path);
 
 /// None if there is no such file yet or what is there is no progress.

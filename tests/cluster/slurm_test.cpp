@@ -82,11 +82,11 @@ TEST_F(SlurmTest, WhatFailsIsSaidByStatusAndReportAndNotRepeated) {
   EXPECT_FALSE(exists("results/d_tasks/2")) << "a failed run is no run that was left behind";
 }
 
-/// Runs take half a second each, and two tasks share them: what is said after some is what the rest takes,
+/// Runs take .3 s each, and two tasks share them: what is said after some is what the rest takes,
 /// up to a second of Slurm's own and a third, as tasks write how far they are once a second.
 TEST_F(SlurmTest, StatusSaysHowLongTheRestTakes) {
   using std::chrono::steady_clock;
-  write("d.yaml", tasksDescriptor(32, 500));
+  write("d.yaml", tasksDescriptor(32, 300));
   ASSERT_EQ(call({"submit", "d.yaml", "--array", "2"}).exitCode, 0);
   const auto status = [&] { return nlohmann::json::parse(call({"status", "d.yaml", "--json"}).out); };
   nlohmann::json said;
