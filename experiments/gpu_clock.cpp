@@ -68,7 +68,11 @@ std::optional<double> GpuClock::measureMhz() {
   glDeleteQueries(1, &query);
   const auto counted = out.read<uint32_t>(0, 1);
   touch();
-  return nanoseconds > 0 ? std::optional(counted[0] * 1e3 / static_cast<double>(nanoseconds)) : std::nullopt;
+  if (nanoseconds == 0) return {};
+  const double mhz = counted[0] * 1e3 / static_cast<double>(nanoseconds);
+  // A chip that turns out to be faster than when it was woken is waited for next time.
+  if (expectedMhz_ > 0.0) expectedMhz_ = std::max(expectedMhz_, mhz);
+  return mhz;
 }
 
 }  // namespace limen::experiments

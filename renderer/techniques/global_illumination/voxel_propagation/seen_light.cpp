@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -16,12 +17,22 @@ const std::string kFolder = "renderer/techniques/global_illumination/voxel_propa
 constexpr const char *kVisibilityPass = "global_illumination/visibility",
                      *kSearchPass = "global_illumination/search";
 
+constexpr int64_t kBytesPerPx = 8;  // of each of two lists
+
+int64_t mostBytes() {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  return most;
+}
+
 int64_t pixelsOf(const frame::Frame& frame) {
   const int64_t pixels = int64_t{frame.sizePx().x} * frame.sizePx().y;
-  constexpr int64_t kMost = int64_t{1} << (32 - kAskedCornerBits);
-  if (pixels >= kMost)
-    throw Error("a picture of " + std::to_string(pixels) + " pixels has more than are numbered for rays",
-                "image", "use an image of fewer than " + std::to_string(kMost) + " pixels");
+  const int64_t most = std::min(int64_t{1} << (32 - kAskedCornerBits), mostBytes() / kBytesPerPx);
+  if (pixels >= most)
+    throw Error("a picture of " + std::to_string(pixels) +
+                    " pixels has more than this device's lists of those with rays take",
+                "image",
+                "use an image of fewer than " + std::to_string(most) + " pixels, or weights: occupied");
   return pixels;
 }
 
@@ -31,7 +42,8 @@ SeenLight::SeenLight(frame::Frame& frame, const gl::ShaderDefines& defines,
                      const frame::SurfaceLightSettings& lighting, const char* pass, int widest,
                      int64_t raysPerPx)
     : pixels_(static_cast<double>(pixelsOf(frame))),
-      mostRays_(static_cast<uint32_t>(raysPerPx * pixelsOf(frame))),
+      mostRays_(static_cast<uint32_t>(
+          std::min(raysPerPx * pixelsOf(frame), (mostBytes() - int64_t{sizeof(AskedHeader)}) / 4))),
       widest_(widest),
       indirect_(lighting.light != frame::LightPart::Direct),
       picture_(frame, kFolder + "reconstruct_sure.comp.glsl", defines, lighting, pass),
@@ -40,11 +52,11 @@ SeenLight::SeenLight(frame::Frame& frame, const gl::ShaderDefines& defines,
       seen_(picture_.program(frame, kFolder + "reconstruct_seen.comp.glsl", defines)),
       search_(picture_.program(frame, kFolder + "reconstruct_search.comp.glsl", defines)),
       askedRays_(int64_t{sizeof(AskedHeader)} + int64_t{4} * mostRays_, nullptr),
-      askedPixels_(int64_t{8} * pixelsOf(frame), nullptr),
-      seenCorners_(int64_t{8} * pixelsOf(frame), nullptr) {
+      askedPixels_(kBytesPerPx * pixelsOf(frame), nullptr),
+      seenCorners_(kBytesPerPx * pixelsOf(frame), nullptr) {
   askedRays_.clearUint(0);
-  frame.passes().setBytesHeld(
-      pass, picture_.texture().bytes() + askedRays_.bytes() + askedPixels_.bytes() + seenCorners_.bytes());
+  frame.passes().setBytesHeld(kVisibilityPass,
+                              askedRays_.bytes() + askedPixels_.bytes() + seenCorners_.bytes());
 }
 
 void SeenLight::render(frame::Frame& frame, const std::function<void(const gl::Program&)>& configure,

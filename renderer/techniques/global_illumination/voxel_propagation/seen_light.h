@@ -16,7 +16,7 @@ namespace limen::techniques {
 class SeenLight {
  public:
   /// `defines`: those of the gathering shaders; `widest`: how far pixels look, in voxels. Throws Error for
-  /// pictures of 2^26 pixels or more.
+  /// pictures of 2^26 pixels or more, or of more than the device's buffers take.
   SeenLight(frame::Frame& frame, const gl::ShaderDefines& defines,
             const frame::SurfaceLightSettings& lighting, const char* pass, int widest,
             int64_t raysPerPx = kRaysPerPx);
