@@ -62,10 +62,10 @@ int nearestOf(uint lit, vec3 at, ivec3 own, int reach, int block) {
 // One place in the shader traces rays, as each takes many registers.
 vec4 searchedAtFace(SurfacePoint point, vec3 at, int face, bool traced, uint seen, bool wide) {
   const ivec3 low = ivec3(floor(at)), own = ivec3(floor(at + 0.5));
-  uint left;
-  vec4 sum = lightAtFace(point, at, face, seen, left);
+  uint left = 0u;
+  vec4 sum = vec4(0.0);
+  if (!wide) sum = lightAtFace(point, at, face, seen, left);
   if (traced) left = 0u;
-  if (wide) sum = vec4(0.0), left = 0u;
   bool around = false;
   float nearest = 1e30;
   int reach = wide ? 2 : 1, block = -1;

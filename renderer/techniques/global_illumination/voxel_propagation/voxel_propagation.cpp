@@ -117,14 +117,15 @@ class VoxelPropagation : public Technique {
       fluxAfterStep_.push_back(after);
     }
     const voxels::VoxelGrid& grid = light_->volume().grid();
-    return {{"injected_flux", injected},
+    // Costs first: reports draw the first counter that differs.
+    return {{"voxel_steps", double(grid.count()) * settings_.grid.iterations * settings_.grid.generations()},
+            {"injected_flux", injected},
             {"largest_gain", largest},
             {"last_gain", last},
             {"remaining_flux", injected > 0.0 ? fluxAfterStep_.back() / injected : 0.0},
             {"homeless_samples", double(light_->homeless())},
             {"visibility_rays_per_px", costs.raysPerPx},
-            {"searching_px_share", costs.searchingShare},
-            {"voxel_steps", double(grid.count()) * settings_.grid.iterations * settings_.grid.generations()}};
+            {"searching_px_share", costs.searchingShare}};
   }
 
  private:
